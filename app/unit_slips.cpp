@@ -12,7 +12,7 @@ namespace fretwork::app {
 namespace {
 
 constexpr double largest_section = 3.0, largest_gap = 0.1, largest_mesh = 1000.0; // m
-constexpr double least_stiffness = 5e3;                                           // N/m, of a contact
+constexpr double least_stiffness = 1e3;                                           // N/m, of a contact
 constexpr double least_modulus = 1e7;                                             // Pa
 constexpr double least_density = 50.0, largest_density = 3e4;                     // kg/m3
 constexpr double largest_friction = 2.0;
@@ -173,8 +173,8 @@ std::vector<std::string> odd_stiffness(const study::Study& study) {
   if (study.beams.empty())
     return out;
   for (const study::Contact& contact : study.contacts)
-    if (const double stiffness = contact.normal_stiffness.value_or(least_stiffness);
-        contact.active && stiffness < least_stiffness)
+    if (const double stiffness = contact.normal_stiffness.value_or(2.0 * least_stiffness);
+        contact.active && stiffness <= least_stiffness)
       out.push_back(fmt::format("normal_stiffness = {:g} N/m of contact \"{}\"", stiffness, contact.name));
   return out;
 }

@@ -11,7 +11,7 @@
 ///     modal damping          up to 0.3
 ///     liquids of flows       from 50 kg/m3         their kinematic viscosity   up to 2e-5 m2/s (ten times that of cold water)
 ///     mesh over sections     up to 2e4             added mass           up to 100 times that of the material
-///     stiffness of contacts  from 5e3 N/m
+///     stiffness of contacts  above 1e3 N/m
 ///     offsets of contacts    up to 0.1 m           thickness of supports  up to 1 m
 ///     coefficients of wear   up to 1e-10 m2/N      gravity              up to 100 m/s2
 ///     gap velocities         up to 100 m/s, of gas up to 1000 m/s

@@ -3,6 +3,7 @@
 #include "study_text.hpp"
 #include "tubes.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sstream>
 
 namespace fretwork::app::test::unit_slips_test {
@@ -57,8 +58,7 @@ TEST(UnitSlips, OfSizesAreOneQuestion) {
 TEST(UnitSlips, OfGapsAreAskedAboutFromTheSizeOfTheTubeOn) {
   const Workshop folder;
   const auto found = [&](const std::string& keys) {
-    const auto all = asked(folder, tubes(folder, 1) + supports(keys), {});
-    return all.size() == 1 ? all[0] : "";
+    return fmt::format("{}", fmt::join(asked(folder, tubes(folder, 1) + supports(keys), {}), "; "));
   };
   EXPECT_TRUE(says(found("gap = 0.05\n"), "gap = 0.05 m of contact \"h0\" ... \"h14\" (15): are these mm?"));
   EXPECT_TRUE(says(found("obstacle = \"plane_y\"\ny_axis = [0, 0, 1]\ngap = 0.05\n"), "gap = 0.05 m"));
