@@ -12,51 +12,58 @@ using testing::IsEmpty;
 
 namespace {
 
-/// Of a run that was given 1 J and lost so much by friction, its residual relative to the scale.
-std::vector<std::string> warnings(double lost, double residual_relative, double stored = 0.0,
-                                  double contact_damping = 0.0) {
+/// Of a run that was given 1 J and lost so much by friction; loads pushed `scale` to and fro. The residual that it ends with is its largest.
+std::vector<std::string> warnings(double lost, double scale, const transient::Energy& other = {},
+                                  bool given_step = false) {
   transient::Report report;
+  report.energy = other;
   report.energy.load_work = 1.0;
   report.energy.friction = lost;
-  report.energy.stored = stored;
-  report.energy.contact_damping = contact_damping;
-  report.energy.scale = 200.0; // pushed to and fro
-  report.residual_relative = residual_relative;
+  report.energy.scale = scale;
+  report.residual_relative = std::abs(report.energy.residual()) / scale;
+  study::Study study;
+  if (given_step)
+    study.transient.emplace().step = 1e-4;
   results::RunResults out;
-  app::judge_run({}, {}, {}, report, out);
+  app::judge_run(study, {}, {}, report, out);
   return out.warnings;
 }
 
 } // namespace
 
 TEST(JudgeRun, WarnsOfEnergyThatNothingPutIn) {
-  EXPECT_THAT(warnings(1.0, 1e-9), IsEmpty());
-  EXPECT_THAT(warnings(1.009, 4e-3), IsEmpty());
-  EXPECT_THAT(warnings(2.5, 4e-3),
-              ElementsAre("of the energy dissipated and stored 60 % is in excess, which nothing supplied; a "
-                          "sound run is balanced to 1 %; take a smaller step"));
-  EXPECT_THAT(warnings(2.5, 4e-4), IsEmpty()); // next to what goes to and fro
-  EXPECT_THAT(warnings(0.0, 4e-3, 1.25), ElementsAre(HasSubstr("stored 20 % is in excess")));
-  EXPECT_THAT(warnings(0.1, 4e-3), IsEmpty()); // of what goes to and fro nothing is left to judge by
-  EXPECT_THAT(warnings(1.0, 0.0099), IsEmpty());
-  EXPECT_THAT(
-      warnings(1.0, 0.012),
-      ElementsAre("the energy balance is off by 1.2 % of the energy put in; a sound run is balanced to "
-                  "1 %; take a smaller step"));
-  EXPECT_THAT(warnings(2.5, 0.02), ElementsAre(HasSubstr("stored 60 % is in excess")));
-  EXPECT_THAT(warnings(2.5, 0.2), ElementsAre(HasSubstr("off by 20 % of the energy put in")));
+  EXPECT_THAT(warnings(1.0, 200.0), IsEmpty());
+  EXPECT_THAT(warnings(1.009, 2.0), IsEmpty());
+  EXPECT_THAT(warnings(2.5, 200.0),
+              ElementsAre("the energy balance has an excess of 60 % of the energy dissipated and stored; a "
+                          "sound run is balanced to 1 %; set a smaller transient.accuracy"));
+  EXPECT_THAT(warnings(1.15, 200.0), IsEmpty()); // next to what goes to and fro
+  EXPECT_THAT(warnings(2.5, 100.0), ElementsAre(HasSubstr("an excess of 60 %")));
+  EXPECT_THAT(warnings(2.5, 10.0), ElementsAre(HasSubstr("off by 15 % of the energy put in")));
 }
 
-TEST(JudgeRun, WarnsOfEnergyThatNothingTook) {
-  EXPECT_THAT(warnings(0.5, 4e-3, 0.495), IsEmpty());
-  EXPECT_THAT(warnings(0.5, 4e-3, 0.48),
-              ElementsAre("of the energy dissipated and stored 2 % is missing, which nothing took; a sound "
-                          "run is balanced to 1 %; take a smaller step"));
+TEST(JudgeRun, WarnsOfEnergyThatIsLacking) {
+  EXPECT_THAT(warnings(0.992, 2.0), IsEmpty());
+  EXPECT_THAT(warnings(0.5, 100.0, {.stored = 0.48}, true),
+              IsEmpty()); // 0.02 J: next to what goes to and fro
+  EXPECT_THAT(warnings(0.5, 5.0, {.stored = 0.48}, true),
+              ElementsAre("the energy balance lacks 2.04 % of the energy dissipated and stored; a sound run "
+                          "is balanced to 1 %; take a smaller step"));
+  // a preload of 9 J is none that the motion takes up
+  EXPECT_THAT(warnings(0.5, 10.0, {.initial = 9.0, .stored = 9.48}), ElementsAre(HasSubstr("lacks 2.04 %")));
+}
+
+TEST(JudgeRun, HoldsABalanceWithoutLossesAgainstWhatIsPutInAlone) {
+  EXPECT_THAT(warnings(0.0, 200.0, {.stored = 1.25}), IsEmpty()); // the motion may have come to rest
+  EXPECT_THAT(warnings(0.0, 20.0, {.stored = 1.25}),
+              ElementsAre("the energy balance is off by 1.25 % of the energy put in; a sound run is balanced "
+                          "to 1 %; set a smaller transient.accuracy"));
 }
 
 TEST(JudgeRun, WarnsOfDampersThatGiveEnergy) {
-  EXPECT_THAT(warnings(1.005, 1e-9, 0.0, -0.005), IsEmpty());
-  EXPECT_THAT(warnings(1.2, 1e-9, 0.0, -0.2), ElementsAre(HasSubstr("gave 20 % of the energy put in")));
+  EXPECT_THAT(warnings(1.005, 1e3, {.contact_damping = -0.005}), IsEmpty());
+  EXPECT_THAT(warnings(1.2, 1e3, {.contact_damping = -0.2}),
+              ElementsAre(HasSubstr("gave 20 % of the energy put in")));
 }
 
 } // namespace judge_run_test
