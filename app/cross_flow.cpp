@@ -66,15 +66,14 @@ std::vector<std::string> cross_flow_in_legs(const study::Study& study, const fem
     for (const flow::Zone& zone : placed.profile.zones()) {
       if (!is_one_number(zone))
         continue;
-      const double to = std::min(zone.to, placed.length);
+      const double to = std::min(zone.to, placed.length), reach = least_reach * placed.length;
       std::vector<std::string> parts;
       const auto add = [&](double first, double second) {
-        if (second - first > least_reach * placed.length)
+        if (second - first > reach)
           parts.push_back(fmt::format("s = {:.4g} to {:.4g} m", first, second));
       };
       for (std::size_t b = 0; b < bends.size(); ++b) {
         const auto [begin, end] = bends[b];
-        const double reach = least_reach * placed.length;
         if (zone.from > end - reach || to < begin + reach) // a leg of its own
           continue;
         const double before = b > 0 ? bends[b - 1][1] : 0.0,

@@ -42,6 +42,7 @@ double taken_up(const transient::Energy& e) {
          positive(-e.fluid_work) + positive(e.stored - e.initial);
 }
 
+/// Of energy that is gained or lost without a cause: contacts, or what integrates the modes, then do otherwise than the laws say.
 void judge_balance(const study::Study& study, const transient::StepChoice& choice,
                    const transient::Report& report, std::vector<std::string>& warnings) {
   const bool given = study.transient && study.transient->step;

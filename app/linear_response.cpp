@@ -6,6 +6,7 @@
 #include "flow/response.hpp"
 #include "flow/stability.hpp"
 #include "modal/damping.hpp"
+#include "results/flow_text.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <numbers>
@@ -195,20 +196,19 @@ void warn_of_instability(const TubesInFlow& tubes, const std::string& name,
     } catch (const core::Error&) {
       continue;
     }
-    const auto worst =
-        std::max_element(found.cases.begin(), found.cases.end(), [](const auto& a, const auto& b) {
-          return a.margin().value_or(1.0) > b.margin().value_or(1.0);
-        });
-    if (worst == found.cases.end() || !worst->margin() || *worst->margin() > 0.0)
+    if (found.cases.empty())
       continue;
-    const auto mode = static_cast<std::size_t>(worst->critical_mode);
+    const flow::StabilityCase& worst = found.cases[results::worst_case(found)];
+    if (!worst.margin() || *worst.margin() > 0.0)
+      continue;
+    const auto mode = static_cast<std::size_t>(worst.critical_mode);
     warnings.push_back(
         fmt::format("response \"{}\": {} is fluid-elastically unstable on its modes, V/Vc = {:.4g} in mode "
                     "{} at {:.4g} Hz ({}) by "
                     "Connors, with the damping of the response, {:.3g} %: the tube moves by more than its "
                     "turbulence makes it, and this "
                     "response is no bound; take a transient with its supports, or more supports in pinned",
-                    name, name_of(tubes.study.flows[placed.entry]), 1.0 - *worst->margin(), mode + 1,
+                    name, name_of(tubes.study.flows[placed.entry]), 1.0 - *worst.margin(), mode + 1,
                     found.modes[mode].frequency, flow::short_text(flow::mode_directions(sampling)[mode]),
                     100.0 * found.modes[mode].damping));
   }

@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/mpi.hpp"
 #include "flow/vortex_shedding.hpp"
+#include "results/flow_text.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -82,31 +83,29 @@ std::string moves_text(const flow::ModeDirection& direction) {
 /// The worst case in words, as a warning where it is unstable. @param has_law  of fluidelastic forces
 void report(const results::StabilityAssessment& found, bool has_law, results::RunResults& out) {
   const auto& cases = found.stability.cases;
-  const auto worst = std::max_element(cases.begin(), cases.end(), [](const auto& a, const auto& b) {
-    return a.margin().value_or(1.0) > b.margin().value_or(1.0);
-  });
-  if (worst == cases.end() || worst->ratio.size() == 0)
+  if (cases.empty() || found.stability.modes.empty())
     return;
+  const flow::StabilityCase& worst = cases[results::worst_case(found.stability)];
   const auto note = [&](const std::string& text) { // before the notes of other kinds
     out.notes.insert(out.notes.begin() +
                          static_cast<std::ptrdiff_t>(std::min(out.notes.size(), out.stability.size())),
                      text);
   };
-  if (!worst->margin()) {
+  if (!worst.margin()) {
     note(fmt::format(
         "stability \"{}\" of flow \"{}\": not assessed, because no mode moves in a velocity across "
         "the tube (Connors' criterion is not one of axial flow)",
         found.name, found.damping.tube));
     return;
   }
-  const double margin = *worst->margin();
+  const double margin = *worst.margin();
   const bool unstable = margin <= 0.0;
-  const auto& mode = found.stability.modes[static_cast<std::size_t>(worst->critical_mode)];
+  const auto& mode = found.stability.modes[static_cast<std::size_t>(worst.critical_mode)];
   const char* stands_for = has_law ? ", by Connors" : ", which no force of the transient stands for";
   const std::string text = fmt::format(
       "stability \"{}\" of flow \"{}\": V/Vc = {:.4g} in mode {} at {:.4g} Hz{}, margin {:.4g}{}{}",
-      found.name, found.damping.tube, 1.0 - margin, worst->critical_mode + 1, mode.frequency,
-      moves_text(found.directions[static_cast<std::size_t>(worst->critical_mode)]), margin,
+      found.name, found.damping.tube, 1.0 - margin, worst.critical_mode + 1, mode.frequency,
+      moves_text(found.directions[static_cast<std::size_t>(worst.critical_mode)]), margin,
       unstable ? ": fluid-elastically unstable" : "", unstable ? stands_for : "");
   if (unstable)
     out.warnings.push_back(text);

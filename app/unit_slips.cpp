@@ -173,9 +173,9 @@ std::vector<std::string> odd_stiffness(const study::Study& study) {
   if (study.beams.empty())
     return out;
   for (const study::Contact& contact : study.contacts)
-    if (const double stiffness = contact.normal_stiffness.value_or(2.0 * least_stiffness);
-        contact.active && stiffness <= least_stiffness)
-      out.push_back(fmt::format("normal_stiffness = {:g} N/m of contact \"{}\"", stiffness, contact.name));
+    if (contact.active && contact.normal_stiffness && *contact.normal_stiffness <= least_stiffness)
+      out.push_back(fmt::format("normal_stiffness = {:g} N/m of contact \"{}\"", *contact.normal_stiffness,
+                                contact.name));
   return out;
 }
 

@@ -17,6 +17,7 @@
 #pragma once
 #include "flow/connors_constant.hpp"
 #include "flow/sampling.hpp"
+#include <optional>
 
 namespace fretwork::flow {
 

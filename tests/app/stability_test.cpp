@@ -185,6 +185,15 @@ TEST(Stability, SaysThatAxialFlowIsNotAssessed) {
   EXPECT_TRUE(says(notes, "not assessed, because no mode moves in a velocity across the tube "
                           "(Connors' criterion is not one of axial flow)"));
   EXPECT_FALSE(says(notes, "V/Vc = 0"));
+  const std::string two =
+      "[[stability]]\nname = \"damped\"\ndamping = 0.04\n[[stability]]\nname = \"film\"\n";
+  const Outcome both = outcome_of(folder, study + two);
+  EXPECT_EQ(both.status, 0) << both.err;
+  for (const char* name : {"damped, T1", "film, T1"}) {
+    const std::size_t row = both.out.find(name);
+    ASSERT_NE(row, std::string::npos) << both.out;
+    EXPECT_TRUE(says(both.out.substr(row, both.out.find('\n', row) - row), "not assessed")) << name;
+  }
 }
 
 TEST(Stability, ScreensForVortexShedding) {
