@@ -86,7 +86,7 @@ private:
   [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
   void move(int first);
-  void find_forces_together(int first, int index);
+  void find_forces_together(int first, int index, int count);
   double find_force(MovingContact& m, int index, int place);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);
 
