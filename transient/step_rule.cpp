@@ -37,7 +37,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Steps of splitting that one of collocation takes the time of: measured 0.5 to 0.8 with 1 to 20 supports of 1e5 to 3e7 N/m, 0.8 to 2.1 with stiffer ones.
 constexpr double collocation_cost = 0.7;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
-constexpr double worth_changing = 0.7;
+constexpr double worth_changing = 0.4;
 /// Beside Hunt and Crossley's dampers, of whose strong impacts collocation has largest forces up to a quarter too high.
 constexpr double worth_changing_hunt_crossley = 0.2;
 
@@ -71,7 +71,7 @@ struct Limit {
 /// @param fineness  1 at an accuracy of 0.01, as its square root
 Limit limit_of(const StepTerm& term, double fineness) {
   return {std::max(term.bound.at(fineness) / term.rate, term.shortest.at(fineness)),
-          fmt::format("{} {:.4g} {}{}", term.name, term.rate, term.unit, term.condition), term.cure};
+          fmt::format("{} {:.4g} {}", term.name, term.rate, term.unit), term.cure};
 }
 
 std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double fineness) {
@@ -99,7 +99,7 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
   return out;
 }
 
-/// What limits the step, but for the modes of splitting beside contacts.
+/// What limits the step, but for the modes of splitting with contacts.
 std::vector<Limit> step_limits(const StepChoice& c, bool contacts, double fineness) {
   std::vector<Limit> out = load_limits(c, contacts, fineness);
   const auto add = [&](const auto& terms) {
@@ -111,8 +111,6 @@ std::vector<Limit> step_limits(const StepChoice& c, bool contacts, double finene
   add(damper_terms(c));
   if (c.scheme != SchemeKind::splitting || !contacts)
     add(std::array{mode_term(c, contacts)});
-  else if (c.highest_mode > 0.0)
-    add(contact_terms_beside_modes(c));
   return out;
 }
 
@@ -181,20 +179,17 @@ double least_steps(const Scene& scene) {
   return std::max(fewest_steps, std::floor(most_least_steps * share * share));
 }
 
-/// Of the longest step in which dampers that stop contacts leave modes to be made heavier: beside tangential ones those above twice the contact
-/// frequency; beside normal ones none, for the force of an impact without rebound begins with a jump, nor beside those of Hunt and Crossley, at no step. Of slow dampers any.
+/// Of splitting: of the longest step beside modes that are made heavier. Beside Hunt and Crossley's dampers none is, at no step.
 Limit limit_of_scaled_modes(const StepChoice& c, double fineness) {
   if (c.hunt_crossley)
     return {0.0, ""};
-  Limit out{c.step, ""};
-  if (c.damper_rate * c.step > fast_damper)
-    out = {mode_with_fast_damper * fineness /
-               (scaled_above * std::max(c.contact_frequency, c.stick_frequency)),
-           "modes up to twice the contact frequency, with tangential dampers", smaller_tangential};
-  if (const double slow = (1.0 - time_round_off) * fast_damper / c.normal_damper_rate; slow < out.step)
-    out = {slow, "modes that are made heavier beside normal dampers",
-           "; a smaller normal_damping makes the step longer"};
-  return out;
+  const double contacts = std::max(c.contact_frequency, c.stick_frequency);
+  const Limit slower{limits_of(c.scheme).highest_mode.at(fineness) / (scaled_above * contacts),
+                     fmt::format("modes up to twice the contact frequency {:.4g} rad/s", contacts)};
+  const Limit slow{(1.0 - time_round_off) * scaled_up_to_damper / c.normal_damper_rate,
+                   "modes that are made heavier beside normal dampers",
+                   "; a smaller normal_damping makes the step longer"};
+  return slow.step < slower.step ? slow : slower;
 }
 
 /// The longest step that the terms allow, but for whole steps that cover the duration.
@@ -218,8 +213,8 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   if (c.scheme == SchemeKind::splitting && contacts && c.highest_mode > 0.0) {
     const Limit modes = limit_of(mode_term(c, contacts), fineness);
     if (const Limit scaled = limit_of_scaled_modes(c, fineness); scaled.step < c.step)
-      limit(scaled.step > modes.step ? scaled : modes);
-    const double most = followed_modes(c, c.step);
+      limit(scaled.step > modes.step ? scaled : Limit{modes.step, modes.reason, scaled.cure});
+    const double most = limits_of(c.scheme).highest_mode.largest;
     if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;
     else

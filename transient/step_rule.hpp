@@ -11,16 +11,13 @@
 /// Dampers of contacts are resolved by the intervals of splitting, the least number that keeps them, and contact_interval for w_c and w_t, in the step. A normal damper
 /// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step (step_warnings.hpp).
 ///
-/// Of splitting the bound of w_c and w_t is contact_beside_modes where a step of that length would have modes above w h = fast_mode, but the step need not be
-/// shorter than min(f, 1) fast_mode/w_max.
-///
-/// With contacts splitting follows modes to highest_mode/h; where r_t h or r_n h > fast_damper to mode_with_fast_damper/h. Faster ones are made heavier
-/// (mass_scaling.hpp), or where they may not be, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
+/// With contacts splitting follows modes to highest_mode/h. In a step of highest_mode/(scaled_above max(w_c, w_t)) faster ones are made heavier
+/// (mass_scaling.hpp); where they may not be, or r_n h is above scaled_up_to_damper, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
 ///
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand. In an impact at the speed v w_c bounds its rate:
 /// p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= 0.5 min(x, sqrt(2 x)).
 /// Euler's limit 2 is met up to x = 8 (which leaves less than 1/8 of the speed). Where loads press the contact nothing bounds it: splitting
-/// follows modes beside such dampers as beside fast ones, at any step, and its intervals resolve them at the penetration that is ahead.
+/// makes no mode heavier beside such dampers, at any step, and its intervals resolve them at the penetration that is ahead.
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the excitation and duration/200.
 ///
 /// Loads: max(points/f, fewest_points) steps in the shortest period of the excitation, points_per_period of the table (points_of_lines for sampled
@@ -28,7 +25,7 @@
 /// record_share, with others than splitting by points. Nor is a step above duration/20000, where
 /// steps are expensive, s = modes + 40 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
 ///
-/// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.7 of that of splitting.
+/// Without a scheme given, collocation is taken where its predicted time (steps times the cost of one) is below 0.4 of that of splitting.
 #pragma once
 #include "transient/step_choice.hpp"
 #include <optional>

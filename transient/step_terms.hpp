@@ -15,7 +15,6 @@ struct StepTerm {
   double rate;               ///< 0: there is none
   const char* unit;
   StepBound bound;
-  const char* condition = "";      ///< of the bound
   const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
   const char* spoiled = "results"; ///< what cannot be trusted above the bound
   StepBound shortest{
@@ -28,21 +27,10 @@ constexpr double time_round_off = 1e-9;
 constexpr const char *name_of_excitation = "the excitation",
                      *name_of_record_band = "the band of a record below the highest mode",
                      *name_of_table_interval = "the shortest interval of a table";
-constexpr const char* smaller_tangential = "; a smaller tangential_damping makes the step longer";
 
-/// w h of modes that splitting follows in a step of so many seconds: fewer where dampers stop contacts within it.
-[[nodiscard]] double followed_modes(const StepChoice& c, double step);
-
-/// @param followed  w h of modes that splitting follows
-[[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts, double followed);
-/// Of the longest step that the modes allow: with fewer of them, or without dampers that stop contacts within it.
 [[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts);
-
 /// Closed and sticking contacts.
 [[nodiscard]] std::array<StepTerm, 2> contact_terms(const StepChoice& c);
-/// Of splitting: beside modes that are fast in a step; a step in which none is may be longer.
-[[nodiscard]] std::array<StepTerm, 2> contact_terms_beside_modes(const StepChoice& c);
-
 [[nodiscard]] StepTerm normal_damper_term(const StepChoice& c);
 /// Of contacts, and all that only explicit schemes have to resolve.
 [[nodiscard]] std::array<StepTerm, 3> damper_terms(const StepChoice& c);

@@ -22,12 +22,11 @@ struct Unresolved {
 };
 using AllUnresolved = std::vector<Unresolved>;
 
-/// @param enough  s, a step that resolves it too
-void look_at(AllUnresolved& out, const StepChoice& c, const StepTerm& term, double enough = 0.0) {
+void look_at(AllUnresolved& out, const StepChoice& c, const StepTerm& term) {
   if (const double product = term.rate * c.step; product > term.bound.largest * rounded)
-    out.push_back({fmt::format("{}{}: {} = {:.3g}, at most {:.4g}", term.name, term.condition, term.symbol,
-                               product, term.bound.largest),
-                   std::max(term.bound.largest / term.rate, enough), term.spoiled});
+    out.push_back(
+        {fmt::format("{}: {} = {:.3g}, at most {:.4g}", term.name, term.symbol, product, term.bound.largest),
+         term.bound.largest / term.rate, term.spoiled});
 }
 
 void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, double frequency,
@@ -39,12 +38,11 @@ void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, d
 
 AllUnresolved unresolved(const StepChoice& c) {
   AllUnresolved out;
-  const bool fast = c.scheme == SchemeKind::splitting && c.highest_mode * c.step > fast_mode * rounded;
-  for (const StepTerm& term : fast ? contact_terms_beside_modes(c) : contact_terms(c))
-    look_at(out, c, term, fast ? fast_mode / c.highest_mode : 0.0); // in which no mode is fast
+  for (const StepTerm& term : contact_terms(c))
+    look_at(out, c, term);
   for (const StepTerm& term : damper_terms(c))
     look_at(out, c, term);
-  look_at(out, c, mode_term(c, true, followed_modes(c, c.step)));
+  look_at(out, c, mode_term(c, true));
   if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + time_round_off))
     out.push_back({fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval), c.table_interval});
   if (c.step > c.record_interval * (1.0 + time_round_off))

@@ -217,9 +217,9 @@ void DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
                          {none.data(), none.data(), g.data(), none.data()}, y.data(), rate.data());
     return VectorXd(Eigen::Map<VectorXd>(y.data(), width));
   };
-  b.response.resize(m, m);
+  b.response.resize(2 * m, m);
   for (Index j = 0; j < m; ++j)
-    b.response.col(j) = b.state.topRows(m) * constant(b.start.col(m + j));
+    b.response.col(j) = b.state * constant(b.start.col(m + j));
   size_ += static_cast<std::size_t>(width);
   blocks_.push_back(std::move(b));
 }
@@ -371,14 +371,16 @@ void DiagonalFlow::add_forces(const double* y, double* force) const {
   }
 }
 
-void DiagonalFlow::response(const double* force, double* moved) const {
+void DiagonalFlow::response(const double* force, double* moved, double* velocity) const {
   for (const Block& b : blocks_) {
     VectorXd f(static_cast<Index>(b.modes.size()));
     for (std::size_t i = 0; i < b.modes.size(); ++i)
       f(static_cast<Index>(i)) = force[b.modes[i]];
-    const VectorXd q = b.response * f;
-    for (std::size_t i = 0; i < b.modes.size(); ++i)
-      moved[b.modes[i]] = q(static_cast<Index>(i));
+    const VectorXd state = b.response * f;
+    for (std::size_t i = 0; i < b.modes.size(); ++i) {
+      moved[b.modes[i]] = state(static_cast<Index>(i));
+      velocity[b.modes[i]] = state(static_cast<Index>(b.modes.size() + i));
+    }
   }
 }
 

@@ -72,7 +72,7 @@ public:
   /// Adds the forces of motion on all modes. No allocation.
   void add_forces(const double* y, double* force) const;
   /// Displacement of the blocks' modes after one step from rest under a constant force.
-  void response(const double* force, double* moved) const;
+  void response(const double* force, double* moved, double* velocity) const;
 
 private:
   struct Block {
@@ -83,7 +83,7 @@ private:
     Eigen::VectorXd stiffness;
     Eigen::MatrixXd state, start, forces;       ///< 2m x width, T; width x 2m; m x width: F of y
     Eigen::MatrixXd input;                      ///< 3 width x m
-    Eigen::MatrixXd response;                   ///< m x m
+    Eigen::MatrixXd response;                   ///< 2m x m
     kernels::Array top, input_tiles, form;      ///< T, `input` and P in tiles
     std::vector<kernels::Array> tables, halves; ///< by lengths; of half the lengths
     [[nodiscard]] int width() const { return count.width(); }

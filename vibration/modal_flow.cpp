@@ -53,9 +53,11 @@ ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<
   states_.assign(static_cast<std::size_t>(system_.motion.states()), 0.0);
   std::copy_n(system_.stiffness.data(), system_.size(), k_.begin());
   per_force_.assign(n, 0.0);
+  rate_per_force_.assign(n, 0.0);
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
     const kernels::StepCoefficients s = step_coefficients(lone_k_(j), lone_c_(j), h_);
     per_force_[static_cast<std::size_t>(j)] = s.qf0 + s.qf1;
+    rate_per_force_[static_cast<std::size_t>(j)] = s.vf0 + s.vf1;
   }
 }
 
@@ -265,15 +267,18 @@ void ModalFlow::add_motion_forces(double* force) const {
           (system_.stiffness(j) - lone_k_(j)) * moved_[i] + (system_.damping(j) - lone_c_(j)) * rate_[i];
 }
 
-void ModalFlow::response(const double* force, double* moved) {
+void ModalFlow::response(const double* force, double* moved, double* velocity) {
   std::fill(a_.begin(), a_.end(), 0.0);
   std::fill(b_.begin(), b_.end(), 0.0);
   std::fill(states_.begin(), states_.end(), 0.0);
   (void)coupled_.advance(0, a_.data(), b_.data(), force, force, states_.data());
   for (std::size_t i = 0; i < apart_.size(); ++i)
-    if (apart_[i])
+    if (apart_[i]) {
       a_[i] = per_force_[i] * force[i];
+      b_[i] = rate_per_force_[i] * force[i];
+    }
   std::copy(a_.begin(), a_.end(), moved);
+  std::copy(b_.begin(), b_.end(), velocity);
 }
 
 } // namespace fretwork::vibration

@@ -62,8 +62,8 @@ public:
   void load_at(double time, double* force) { loads_.observe(time, force); }
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
   void add_motion_forces(double* force) const;
-  /// Displacement of the modes after one step from rest under a constant force, padded arrays.
-  void response(const double* force, double* moved);
+  /// Displacement and velocity of the modes after one step from rest under a constant force, padded arrays.
+  void response(const double* force, double* moved, double* velocity);
 
 private:
   [[nodiscard]] std::size_t place(int length) const;
@@ -93,7 +93,8 @@ private:
   std::vector<kernels::FlowTable> own_;        ///< of all modes by themselves; with forces of motion
   std::vector<kernels::MiddleTable> inverses_; ///< likewise: of kernels::own_works
   std::vector<kernels::MiddleTable> middles_;
-  kernels::Array per_force_; ///< m/N of the modes that are not coupled: their displacement by `answer`
+  kernels::Array per_force_,
+      rate_per_force_; ///< m/N, m/(N s) of the modes that are not coupled: by `response`
   kernels::Array k_, none_, a_, b_, moved_, rate_, states_;
   kernels::Array own0_, own1_,
       mean_; ///< of the step moved last: force of its own on each mode, mean displacement

@@ -62,10 +62,8 @@ TEST(SchemeLimits, OfAllAndOfSplittingAloneAreThoseOfTheManual) {
       fmt::format("{}", mode_without_contacts),
       fmt::format("{}; {}; {}", points_of_lines, points_without_contacts, fewest_points),
       cell(contact_interval),
-      fmt::format("{}; {}", contact_beside_modes.share, fast_mode),
-      fmt::format("{}; {}", fast_damper, mode_with_fast_damper),
       fmt::format("{}; {}; {}", record_share, record_share_without_contacts, fewest_points_of_records),
-      fmt::format("{}", scaled_above),
+      fmt::format("{}; {}", scaled_above, scaled_up_to_damper),
       fmt::format("{}", coarsest_accuracy)};
   EXPECT_EQ(values, expected);
 }

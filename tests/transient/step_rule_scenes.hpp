@@ -12,8 +12,10 @@ namespace fretwork::tests::step_rule {
 using namespace fretwork::transient;
 
 constexpr double round_off = 1e-12;
-constexpr double eps = 0.5;                                              // at an accuracy of 1 %
-constexpr double share = limits_of(SchemeKind::splitting).contact.share; // w_c h and w_t h at 1 %
+constexpr double eps = 0.5;                                                        // at an accuracy of 1 %
+constexpr double share = limits_of(SchemeKind::splitting).contact.share;           // w_c h and w_t h at 1 %
+constexpr double mode_share = limits_of(SchemeKind::splitting).highest_mode.share; // w_max h, likewise
+constexpr double beside_scaled = mode_share / scaled_above;                        // w_c h, likewise
 constexpr double mass = 2.0;
 
 inline Scene scene_with(const contact::Support& support, double duration = 1000.0,

@@ -234,14 +234,16 @@ void LinearFlow::add_motion_forces(double* force) {
   blocks_.add_forces(y_.data(), force);
 }
 
-void LinearFlow::response(const double* force, double* moved) {
+void LinearFlow::response(const double* force, double* moved, double* velocity) {
   if (blocks_.empty())
-    return uncoupled_.response(force, moved);
+    return uncoupled_.response(force, moved, velocity);
   std::fill(q_.begin(), q_.end(), 0.0);
   to_uncoupled(force, q_.data());
-  uncoupled_.response(q_.data(), v_.data());
+  kernels::Array rate(v_);
+  uncoupled_.response(q_.data(), v_.data(), rate.data());
   to_modes(v_.data(), moved);
-  blocks_.response(force, moved);
+  to_modes(rate.data(), velocity);
+  blocks_.response(force, moved, velocity);
 }
 
 } // namespace fretwork::transient

@@ -87,7 +87,7 @@ public:
   /// Adds the forces of motion where `inside` was last, n values. No allocation.
   void add_motion_forces(double* force);
   /// As ModalFlow, of modes.
-  void response(const double* force, double* moved);
+  void response(const double* force, double* moved, double* velocity);
 
 private:
   [[nodiscard]] std::size_t place(int length) const;

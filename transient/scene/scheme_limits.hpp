@@ -51,8 +51,8 @@ struct SchemeLimits {
   /// r_n dt: a contact that its normal damper stops, of schemes that have it implicitly; others have it in r_e. With splitting the force falls within an
   /// interval as a parabola up to contact::most_parabolic; collocation leaves a tenth of the speed of a mass at 4, where 0.02 is right.
   StepBound normal_damper = {};
-  /// w_max h, with contacts. splitting resonates with modes at pi, and its cubic follows them to 2.5; energy_conserving has the same resonance; Euler's limit of stability
-  /// is 2, that of devogelaere 2.8.
+  /// w_max h, with contacts. A mode takes 88 % of an impulse that is short in a step of splitting at 1.75, which resonates with modes at pi, and whose cubic follows them
+  /// to 2.5; energy_conserving has the same resonance; Euler's limit of stability is 2, that of devogelaere 2.8.
   StepBound highest_mode = {};
   /// In a period of harmonic and random loads on contacts, at an accuracy of 0.01. splitting gives their polygons corners that make up for what lines lose (vibration/load_sum.hpp):
   /// nothing of harmonic loads, (2 pi/10)^4/240 = 0.07 % of the highest frequency of random ones. Others: (2 pi/30)^2/12 = 0.4 %.
@@ -68,7 +68,7 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
      .contact = {1.75, 1.75},
      .tangential_damper = {6.3, 6.3},
      .normal_damper = {unbounded, 1.8},
-     .highest_mode = {2.5, 2.5},
+     .highest_mode = {1.75, 1.75},
      .points_per_period = fewest_points,
      .by_normal_damper = "largest and rms forces"},
     {.scheme = SchemeKind::collocation,
@@ -98,15 +98,10 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
 /// Of splitting alone. w_c dt and w_t dt of its intervals, by accuracy as w_c h: two in the longest step. Contacts whose error replays
 /// (splitting/replays.hpp) find above the accuracy move in up to 16 times as many.
 constexpr StepBound contact_interval{0.875, 0.875};
-/// w_c h and w_t h beside fast modes: those above w h = `fast_mode`, which follow a force within the step otherwise than contacts take it (mobility of
-/// splitting/coupled_contacts.hpp).
-constexpr StepBound contact_beside_modes{1.25, 1.25};
-constexpr double fast_mode = 1.25;
-/// r_t h, r_n h above which dampers stop contacts within the step, and w h of modes that are followed then: (S1) overestimates their velocity, and
-/// contacts that stick are unstable (doc/schemes.md, Limits; tests/transient/sticking_contacts_test.cpp).
-constexpr double fast_damper = 3.0, mode_with_fast_damper = 1.5;
-/// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp), whatever the tangential dampers: 2.5/1.25. Beside fast normal dampers none.
+/// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp); a step is short enough to follow those below.
 constexpr double scaled_above = 2.0;
+/// r_n h up to which modes are made heavier: the force of an impact that a damper stops within the step begins with a jump, which moves all modes.
+constexpr double scaled_up_to_damper = 3.0;
 /// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
 /// fewest steps in its period: 0.8 %.
 constexpr double record_share = 1.0, record_share_without_contacts = 0.5, fewest_points_of_records = 4.0;
@@ -122,6 +117,4 @@ static_assert(
       return true;
     }(),
     "a row for each scheme, in their order");
-static_assert(limits_of(SchemeKind::splitting).highest_mode.share ==
-              scaled_above * contact_beside_modes.share);
 } // namespace fretwork::transient

@@ -57,9 +57,40 @@ public:
     return {f.y() * yz_[0] + f.z() * yz_[1] + f.x * yz_[2], x_[0] * f.y() + x_[1] * f.z() + x_[2] * f.x};
   }
 
+  Mobility& operator+=(const Mobility& other) {
+    for (int from = 0; from < 3; ++from) {
+      yz_[from] += other.yz_[from];
+      x_[from] += other.x_[from];
+    }
+    return *this;
+  }
+  friend Mobility operator-(Mobility a, const Mobility& b) {
+    for (int from = 0; from < 3; ++from) {
+      a.yz_[from] -= b.yz_[from];
+      a.x_[from] -= b.x_[from];
+    }
+    return a;
+  }
+  friend Mobility operator*(double s, Mobility a) {
+    for (int from = 0; from < 3; ++from) {
+      a.yz_[from] *= s;
+      a.x_[from] *= s;
+    }
+    return a;
+  }
+
 private:
   Components::Pair yz_[3] = {}; ///< columns
   double x_[3] = {};            ///< row
+};
+
+/// Displacement of one contact by a unit impulse on another, or on itself, after a time t within a step:
+///     g(t) = W t - V t^3/6
+/// of a free mass W t, of modes what they hold back of it. A constant force moves the contact as the mobility over(t) does.
+struct ImpulseResponse {
+  Mobility w; ///< 1/kg
+  Mobility v; ///< 1/(kg s2)
+  [[nodiscard]] Mobility over(double time) const { return w - (time * time / 12.0) * v; }
 };
 
 } // namespace fretwork::transient

@@ -30,35 +30,36 @@ constexpr double shortest = 1e-9;
 } // namespace
 
 ContactIntervals::ContactIntervals(const contact::Support& support, const Components& rest,
-                                   const Mobility& mobility, bool in_plane, double step, double clearance,
+                                   const ImpulseResponse& own, bool in_plane, double step, double clearance,
                                    const DamperRates& rates)
     : obstacle_(support.obstacle), normal_(support.normal), friction_(support.friction), rest_(rest),
-      w_(mobility), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
+      own_(own), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
-      clearance_(clearance), mobility_(std::max({mobility(0, 0), mobility(1, 1), mobility(2, 2)})),
-      spring_left_(spring_left(step)), rates_(rates) {}
+      clearance_(clearance), spring_left_(spring_left(step)), rates_(rates) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable table;
   table.count = count;
   table.share = 1.0 / count;
   table.length = table.share * h_;
-  table.growing = contact::growing_damping(normal_.damping, normal_.damping * mobility_ * table.length);
-  table.sliding_mass = apparent_mass(table.length, normal_.stiffness, normal_.damping);
+  table.w = own_.over(table.length);
+  table.mobility = std::max({table.w(0, 0), table.w(1, 1), table.w(2, 2)});
+  table.growing = contact::growing_damping(normal_.damping, normal_.damping * table.mobility * table.length);
+  table.sliding_mass = apparent_mass(table, normal_.stiffness, normal_.damping);
   table.apparent_mass =
-      std::max(table.sliding_mass, apparent_mass(table.length, friction_.stiffness, friction_.damping));
+      std::max(table.sliding_mass, apparent_mass(table, friction_.stiffness, friction_.damping));
   if (friction_.active()) {
     table.spring_left = spring_left(table.length);
-    table.pieces = contact::piece_tables(friction_, mobility_, table.length);
+    table.pieces = contact::piece_tables(friction_, table.mobility, table.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
       table.reference = contact::friction_table(friction_, table.length);
   }
   return table;
 }
 
-double ContactIntervals::apparent_mass(double length, double stiffness, double damping) const {
-  const double force = length * (stiffness * length / 6.0 + damping);
-  return force / (1.0 + force * mobility_);
+double ContactIntervals::apparent_mass(const IntervalTable& table, double stiffness, double damping) {
+  const double force = table.length * (stiffness * table.length / 6.0 + damping);
+  return force / (1.0 + force * table.mobility);
 }
 
 int ContactIntervals::least_count(int parts, const ContactPast& past, const FreePath& path) const {
@@ -120,19 +121,20 @@ bool ContactIntervals::may_close(const ContactPast& past, const FreePath& path, 
 void ContactIntervals::begin(MovingContact& m, const Components& held, const IntervalTable& table) const {
   m.growth = table.length * m.course.past.rise;
   m.force = held + 0.5 * m.growth;
-  m.by_held = w_ * held;
-  apply_own_force(m);
+  m.by_held = table.w * held;
+  apply_own_force(m, table);
 }
 
-void ContactIntervals::apply_own_force(MovingContact& m) const {
-  m.by_force = w_ * m.force;
-  m.by_growth = w_ * m.growth;
+void ContactIntervals::apply_own_force(MovingContact& m, const IntervalTable& table) {
+  m.by_force = table.w * m.force;
+  m.by_growth = table.w * m.growth;
 }
 
 void ContactIntervals::move(MovingContact& m, const IntervalTable& table) const {
   const double dt = table.length;
-  apply_own_force(m);
-  const Components by = m.others + m.by_force - m.by_held, growth = m.others_growth + m.by_growth;
+  apply_own_force(m, table);
+  const Components by = m.others_over(dt) + m.by_force - m.by_held,
+                   growth = m.others_growth_over(dt) + m.by_growth;
   m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth));
   m.rate = m.rate + dt * by;
   m.others = m.others + m.others_growth;
@@ -144,15 +146,15 @@ double ContactIntervals::force_change(const MovingContact& m, const IntervalTabl
     return 0.0;
   double mass = m.course.past.friction.sliding ? table.sliding_mass : table.apparent_mass;
   if (normal_.dissipation > 0.0)
-    mass = std::max(mass, apparent_mass(table.length, normal_.stiffness, normal_.damping_at(m.penetration)));
+    mass = std::max(mass, apparent_mass(table, normal_.stiffness, normal_.damping_at(m.penetration)));
   return mass * sum_of_sizes(by);
 }
 
-void ContactIntervals::extrapolate(MovingContact& m) const {
+void ContactIntervals::extrapolate(MovingContact& m, const IntervalTable& table) {
   if (!m.throughout)
     m.growth = {};
   m.force = m.last + 0.5 * m.growth;
-  apply_own_force(m);
+  apply_own_force(m, table);
 }
 
 Components ContactIntervals::with_means(const MovingContact& m, bool of_normal, bool of_friction) {
@@ -201,9 +203,9 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   Motion a;
   const double dt = table.length, start = index * dt;
   const Components of_path = m.path.a + (start + 0.5 * dt) * m.path.j;
-  const Components expected = of_path + (m.others + m.by_force - m.by_held);
+  const Components expected = of_path + (m.others_over(dt) + m.by_force - m.by_held);
   a.velocity = m.path.velocity(start) + m.rate;
-  a.jerk = m.path.j + (1.0 / dt) * m.others_growth;
+  a.jerk = m.path.j + (1.0 / dt) * m.others_growth_over(dt);
   a.acceleration = expected - m.by_force;
   const Components growth = dt * a.jerk + m.by_growth;
   const Components mean = m.path.displacement(start) + m.response +
@@ -212,7 +214,7 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   const contact::Location at = locate(mean);
   a.axes = at.axes();
   a.mean = mean + rest_;
-  a.by_normal = w_ * Components{at.ny, at.nz, 0.0};
+  a.by_normal = table.w * Components{at.ny, at.nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
   const auto of = [&](const Components& c) {
     return contact::AlongAxes{normal(a.axes, c), tangent(a.axes, c)};
@@ -263,7 +265,7 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
     const bool whole = length == dt;
     const double growing =
         whole ? table.growing
-              : contact::growing_damping(normal_.damping, normal_.damping * mobility_ * length);
+              : contact::growing_damping(normal_.damping, normal_.damping * table.mobility * length);
     const double end =
         start + length * (rate + 0.5 * length * a.acceleration_inwards) + (whole ? a.bend : 0.0);
     return contact::normal_over_interval(normal_, length, a.mobility, growing,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// One contact over an interval dt of a step of the splitting scheme. It moves by
-///     u(t) = path(t) + r(t),   r'' = W (f - held) + what the others' forces differ from those held
+///     u(t) = path(t) + r(t),   r'' = W (f - held) + what the others' forces differ from those held - what the modes hold back of all these by V
 /// path: of the modes under the forces held; f: its force. At its mean position, under the force that is expected of it, stand its normal and the mean of its
 /// penetration, a parabola in time (doc/schemes.md, Turning normal). An open contact closes where this becomes positive, a closed one opens where
 /// its force ends; its laws (contact/normal_interval.hpp, contact/friction_interval.hpp) hold between.
@@ -56,18 +56,27 @@ struct MovingContact {
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
   Components others,
       others_growth; ///< m/s2: by what the forces of the others differ from those held, mean and growth over an interval
+  Components held_back,
+      held_back_rate; ///< m/s2, m/s3: at the start of the next interval, of the acceleration by the forces since the start of the step
   /// N: of an interval, as they are expected or found: the mean, and how much a linear force with its mean and first moment grows
   Components force, growth;
   Components last;                         ///< N: its force at the end of an interval
   Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
+  /// m/s2, over the next interval: what all but its own force there, and what is held, accelerate it by; mean and growth.
+  [[nodiscard]] Components others_over(double dt) const {
+    return others - held_back - (0.5 * dt) * held_back_rate;
+  }
+  [[nodiscard]] Components others_growth_over(double dt) const { return others_growth - dt * held_back_rate; }
 };
 
 /// What the laws need of an interval of a given length.
 struct IntervalTable {
-  int count = 0;        ///< intervals of a step
-  double length = 0.0;  ///< dt, s
-  double share = 1.0;   ///< of a step
-  double growing = 0.0; ///< N s/m, c' of normal_interval.hpp
+  int count = 0;         ///< intervals of a step
+  double length = 0.0;   ///< dt, s
+  double share = 1.0;    ///< of a step
+  Mobility w;            ///< 1/kg, over(dt)
+  double mobility = 0.0; ///< 1/kg, the largest along any direction
+  double growing = 0.0;  ///< N s/m, c' of normal_interval.hpp
   double apparent_mass = 0.0,
          sliding_mass = 0.0; ///< kg: force for an acceleration of 1 m/s2 over it; where the contact slides
   double spring_left = 0.0;  ///< share of an open contact's spring after the interval
@@ -86,7 +95,7 @@ public:
   /// @param support  must live longer   @param rest  of the contact without displacement, m
   /// @param in_plane  friction acts along x too   @param step  h, s   @param clearance  m, that is not to be passed unseen
   /// @param rates  of all contacts whose forces move it
-  ContactIntervals(const contact::Support& support, const Components& rest, const Mobility& mobility,
+  ContactIntervals(const contact::Support& support, const Components& rest, const ImpulseResponse& own,
                    bool in_plane, double step, double clearance, const DamperRates& rates);
 
   [[nodiscard]] IntervalTable table(int count) const;
@@ -99,7 +108,7 @@ public:
   /// At the start of a step.   @param held  N
   void begin(MovingContact& m, const Components& held, const IntervalTable& table) const;
   /// The accelerations by its own force, which has been found or is expected.
-  void apply_own_force(MovingContact& m) const;
+  static void apply_own_force(MovingContact& m, const IntervalTable& table);
   /// Its force over the interval `index` of the step, the others' given. No allocation.
   void find_force(MovingContact& m, const IntervalTable& table, int index) const;
   /// To the end of the interval, under all forces as they were found. Those of the others are expected to grow on.
@@ -117,7 +126,7 @@ public:
     return friction_stops || normal_stops ? with_means(m, normal_stops, friction_stops) : m.last;
   }
   /// What is expected of its force in the next interval: it grows on where the contact has been closed throughout, and stays else.
-  void extrapolate(MovingContact& m) const;
+  static void extrapolate(MovingContact& m, const IntervalTable& table);
   /// An open contact forgets over so many whole steps. Returns what its spring dissipates, J.
   double relax(ContactPast& past, int steps) const;
   /// A spring that sticks is stretched by what the modes moved, not by what the step took them to move: it would creep.
@@ -135,7 +144,7 @@ private:
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
   /// kg: force of a spring and a damper for an acceleration of 1 m/s2 over an interval
-  [[nodiscard]] double apparent_mass(double length, double stiffness, double damping) const;
+  [[nodiscard]] static double apparent_mass(const IntervalTable& table, double stiffness, double damping);
   /// N: its last force, the normal part and friction at their means where asked for.
   [[nodiscard]] static Components with_means(const MovingContact& m, bool of_normal, bool of_friction);
   [[nodiscard]] int intervals_at_side(int parts, double way) const;
@@ -172,10 +181,9 @@ private:
   const contact::NormalLaw normal_;
   const contact::FrictionLaw friction_;
   Components rest_;
-  Mobility w_;
+  ImpulseResponse own_;
   bool in_plane_, has_corners_, has_sides_;
   double h_, clearance_;
-  double mobility_;    ///< 1/kg, the largest along any direction
   double spring_left_; ///< share of an open contact's spring after a step
   DamperRates rates_;
 };

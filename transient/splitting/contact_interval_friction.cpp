@@ -85,7 +85,7 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
   const Components velocity = a.velocity + from * (a.acceleration + (0.5 * (from - dt)) * a.jerk);
   const Components acceleration = a.acceleration + tau * a.jerk;
   const contact::ContactAxes& axes = a.axes;
-  const Components by_t = w_ * Components{axes.nz, -axes.ny, 0.0};
+  const Components by_t = table.w * Components{axes.nz, -axes.ny, 0.0};
   const double wtt = tangent(axes, by_t), wtn = tangent(axes, a.by_normal), wnn = a.mobility;
   double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + wtn * force,
          jt = tangent(axes, a.jerk) + wtn * force_dot;
@@ -107,7 +107,8 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
     const contact::TangentialPath<Vec2, contact::Sym2> path{
         friction_.masked(Vec2{in_plane_ ? velocity.x : 0.0, vt}),
         friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}), friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
-        friction_.masked(in_plane_ ? contact::Sym2{w_(2, 2), by_t.x, wtt} : contact::Sym2{0.0, 0.0, wtt})};
+        friction_.masked(in_plane_ ? contact::Sym2{table.w(2, 2), by_t.x, wtt}
+                                   : contact::Sym2{0.0, 0.0, wtt})};
     if (by_reference) {
       NormalForce whole = n;
       whole.from = 0.0;
@@ -116,7 +117,7 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
                    path.velocity, m);
     } else {
       add_friction(a, n, table,
-                   contact::friction_over_interval(friction_, table.pieces, mobility_, memory.spring,
+                   contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring,
                                                    memory.sliding, length, n.course, path),
                    path.velocity, m);
     }
@@ -124,7 +125,7 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
     const contact::TangentialPath<double, double> path{friction_.along.t * vt, friction_.along.t * at,
                                                        friction_.along.t * jt, friction_.along.t * wtt};
     add_friction(a, n, table,
-                 contact::friction_over_interval(friction_, table.pieces, mobility_, memory.spring.t,
+                 contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring.t,
                                                  memory.sliding, length, n.course, path),
                  path.velocity, m);
   }

@@ -14,8 +14,8 @@ constexpr int most_passes = 40;
 } // namespace
 
 CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks blocks,
-                                 std::vector<std::vector<Mobility>> mobility, double step, int parts)
-    : contacts_(contacts), blocks_(std::move(blocks)), mobility_(std::move(mobility)), h_(step) {
+                                 std::vector<std::vector<ImpulseResponse>> responses, double step, int parts)
+    : contacts_(contacts), blocks_(std::move(blocks)), responses_(std::move(responses)), h_(step) {
   const auto count = static_cast<std::size_t>(contacts.count);
   pasts_.resize(count);
   forces_.resize(count);
@@ -32,25 +32,30 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   before_step_.reserve(count);
   moving_blocks_.resize(blocks_.size());
   touched_.reserve(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
     moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
+    moving_blocks_[b].mobility.resize(responses_[b].size());
+    moving_blocks_[b].holds_back = std::any_of(responses_[b].begin(), responses_[b].end(),
+                                               [](const ImpulseResponse& g) { return g.v.largest() > 0.0; });
+    move_in_intervals_of(static_cast<int>(b), parts);
+  }
   for (int c = 0; c < contacts.count; ++c) {
-    Mobility own;
+    ImpulseResponse own;
     DamperRates rates;
     for (const auto& [block, local] : blocks_.places[c]) {
       const auto size = blocks_.contacts[block].size();
       for (std::size_t from = 0; from < size; ++from) {
         const contact::Support& other = contacts.supports[blocks_.contacts[block][from]];
-        const double coupling = mobility_[block][from * size + static_cast<std::size_t>(local)].largest();
+        const double coupling =
+            responses_[block][from * size + static_cast<std::size_t>(local)].over(step).largest();
         rates.normal += other.normal.damping * coupling;
         rates.by_penetration += other.normal.stiffness * other.normal.dissipation * coupling;
         if (other.friction.active())
           rates.tangential += other.friction.damping * coupling;
       }
-      const Mobility& part = mobility_[block][static_cast<std::size_t>(local) * (size + 1)];
-      for (int to = 0; to < 3; ++to)
-        for (int from = 0; from < 3; ++from)
-          own.add(to, from, part(to, from));
+      const ImpulseResponse& part = responses_[block][static_cast<std::size_t>(local) * (size + 1)];
+      own.w += part.w;
+      own.v += part.v;
     }
     laws_.emplace_back(contacts.supports[c], Components{contacts.rest_y(c), contacts.rest_z(c), 0.0}, own,
                        contacts.in_plane[c] != 0, step, contacts.reach[c].limit[kernels::lane(c)], rates);
@@ -187,6 +192,12 @@ void CoupledContacts::move(int first) {
   for (int i = first; i >= 0; i = next_[i])
     count = std::max(count, counts_[i]);
   const bool coupled = next_[first] >= 0;
+  bool holds_back = false;
+  for (int i = first; i >= 0; i = next_[i])
+    for (const auto& place : blocks_.places[moving_[i].number]) {
+      move_in_intervals_of(place.block, count);
+      holds_back = holds_back || moving_blocks_[place.block].holds_back;
+    }
   for (int i = first; i >= 0; i = next_[i]) {
     MovingContact& m = moving_[i];
     const Components held = forces_[m.number].held;
@@ -201,12 +212,47 @@ void CoupledContacts::move(int first) {
       laws_[moving_[first].number].find_force(moving_[first], tables_[moving_[first].number], index);
     for (int i = first; i >= 0; i = next_[i])
       laws_[moving_[i].number].move(moving_[i], tables_[moving_[i].number]);
+    if (holds_back && index + 1 < count)
+      hold_back(first, h_ / count);
     for (int i = first; i >= 0; i = next_[i]) { // the others take it that all forces grow on
       MovingContact& m = moving_[i];
       const Components grown = m.force + m.growth, growth = m.growth;
-      laws_[m.number].extrapolate(m);
+      ContactIntervals::extrapolate(m, tables_[m.number]);
       if (coupled && !m.throughout)
         pass_on(m, m.force - grown, m.growth - growth);
+    }
+  }
+}
+
+/// Contacts of a block that move together, through so many intervals of the step.
+void CoupledContacts::move_in_intervals_of(int block, int count) {
+  MovingBlock& of = moving_blocks_[block];
+  if (of.count == count)
+    return;
+  of.count = count;
+  for (std::size_t i = 0; i < of.mobility.size(); ++i)
+    of.mobility[i] = responses_[block][i].over(h_ / count);
+}
+
+/// At the end of an interval: what the modes hold back by V, of the velocity that the forces have given in it, and of the acceleration from now on.
+void CoupledContacts::hold_back(int first, double dt) {
+  for (int i = first; i >= 0; i = next_[i])
+    moving_[i].held_back = moving_[i].held_back + dt * moving_[i].held_back_rate;
+  for (int i = first; i >= 0; i = next_[i]) {
+    const MovingContact& m = moving_[i];
+    const Components force = m.force - forces_[m.number].held;
+    if (!(sum_of_sizes(force) + sum_of_sizes(m.growth) > 0.0))
+      continue;
+    for (const auto& [block, local] : blocks_.places[m.number]) {
+      const ImpulseResponse* by =
+          &responses_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
+      for (const auto& [k, to] : moving_blocks_[block].contacts) {
+        MovingContact& other = moving_[k];
+        const Components rate = dt * (by[to].v * force), growth = dt * (by[to].v * m.growth);
+        other.held_back = other.held_back + dt * (0.5 * rate - (1.0 / 12.0) * growth);
+        other.held_back_rate = other.held_back_rate + rate;
+        other.rate = other.rate - (dt * dt / 12.0) * (rate - 0.5 * growth);
+      }
     }
   }
 }
@@ -229,7 +275,7 @@ void CoupledContacts::find_forces_together(int first, int index, int count) {
         continue;
       again = true;
       m.course = before_[i];
-      laws_[m.number].apply_own_force(m);
+      ContactIntervals::apply_own_force(m, tables_[m.number]);
       (void)find_force(m, index, i);
     }
     if (!again)
@@ -253,7 +299,8 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
   if (!(sum_of_sizes(by_force) + sum_of_sizes(by_growth) > 0.0))
     return;
   for (const auto& [block, local] : blocks_.places[m.number]) {
-    const Mobility* w = &mobility_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
+    const Mobility* w =
+        &moving_blocks_[block].mobility[static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
     for (const auto& [i, to] : moving_blocks_[block].contacts)
       if (MovingContact& other = moving_[i]; &other != &m) {
         other.others = other.others + w[to] * by_force;

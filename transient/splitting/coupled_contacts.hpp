@@ -3,10 +3,10 @@
 /// The contacts over a step h of the splitting scheme: all that may be closed move together through equal intervals of it (contact_interval.hpp). In each
 /// interval one after the other finds its forces from those of the others as they are known or expected, and again where what the others have done since
 /// would make it diverge. Contact i moves by
-///     u_i(t) = path_i(t) + r_i(t),   r_i'' = sum over k of W_ik (f_k - held_k)
+///     u_i(t) = path_i(t) + r_i(t),   r_i'' = sum over k of W_ik d_k - V_ik (integral of the impulses of d_k),   d_k = f_k - held_k
 /// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
-/// that were closed (constant over the step); r: what the change of forces adds, with the mobility W for which W f h^2/2 is the exact displacement
-/// after a step under constant forces f. What rests stays at rest, whatever h: f = held then, and the path is constant.
+/// that were closed (constant over the step); r: what the change of forces adds, by the impulse response of step_response.hpp, whose displacement and velocity
+/// after a step under constant forces are exact. Within an interval V acts in the mean, over(dt). What rests stays at rest, whatever h: f = held then, and the path is constant.
 ///
 /// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group, whose
 /// intervals are those of its contact that asks for the most.
@@ -20,11 +20,11 @@ namespace fretwork::transient {
 
 class CoupledContacts {
 public:
-  /// @param contacts  must live longer   @param mobility  W by blocks: of the block's contact `to` by a force on its contact `from` at
+  /// @param contacts  must live longer   @param responses  by blocks: of the block's contact `to` by a force on its contact `from` at
   ///   from * contacts of the block + to
   /// @param step  h, s   @param parts  intervals of a step, >= 1
   CoupledContacts(const PackedContacts& contacts, ContactBlocks blocks,
-                  std::vector<std::vector<Mobility>> mobility, double step, int parts);
+                  std::vector<std::vector<ImpulseResponse>> responses, double step, int parts);
 
   /// From now on contact c asks for so many intervals a step, >= 1. No allocation.
   void divide(int c, int parts) { parts_[static_cast<std::size_t>(c)] = parts; }
@@ -63,6 +63,9 @@ public:
 private:
   /// Of the contacts that move in a step those of a block, and the group that it is part of.
   struct MovingBlock {
+    std::vector<Mobility> mobility;             ///< as `responses`, over an interval
+    int count = 0;                              ///< of such a step
+    bool holds_back = false;                    ///< V is not 0
     std::vector<ContactBlocks::Place> contacts; ///< `block`: among moving_; `local`: in the block
     int parent = 0;            ///< a block of the same group; the block itself: it stands for the group
     int first = -1, last = -1; ///< contacts of the group that it stands for, among moving_
@@ -88,11 +91,13 @@ private:
   void move(int first);
   void find_forces_together(int first, int index, int count);
   double find_force(MovingContact& m, int index, int place);
+  void move_in_intervals_of(int block, int count);
+  void hold_back(int first, double dt);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);
 
   const PackedContacts& contacts_;
   ContactBlocks blocks_;
-  std::vector<std::vector<Mobility>> mobility_; ///< by blocks
+  std::vector<std::vector<ImpulseResponse>> responses_; ///< by blocks
   double h_;
   std::vector<ContactIntervals> laws_; ///< of each contact
   std::vector<IntervalTable> tables_;  ///< of the intervals that it moved in last

@@ -24,7 +24,7 @@
 #include "transient/modes/mass_scaling.hpp"
 #include "transient/splitting/replays.hpp"
 #include "transient/splitting/step_forces.hpp"
-#include "transient/splitting/step_mobility.hpp"
+#include "transient/splitting/step_response.hpp"
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -222,8 +222,8 @@ private:
 
   CoupledContacts make_coupled(const Scene& scene, const SplittingOptions& options) {
     ContactBlocks blocks(scene);
-    auto mobility = step_mobility(scene, blocks, contacts_.components, modes_, h_);
-    return {contacts_, std::move(blocks), std::move(mobility), h_, options.parts};
+    auto responses = step_response(scene, blocks, contacts_.components, modes_, h_);
+    return {contacts_, std::move(blocks), std::move(responses), h_, options.parts};
   }
 
   [[nodiscard]] std::optional<PackedContacts> inputs_of(const Scene& scene) const {

@@ -108,8 +108,7 @@ TEST(MassScaling, LeavesModesBesideFastNormalDampers) {
   scene.contacts[0].support.normal.damping = 100.0 * without.contact_frequency;
   const StepChoice fast = choose_step(scene, splitting());
   EXPECT_EQ(fast.scaled, 0);
-  EXPECT_LE(fast.highest_mode * fast.step, 1.5);
-  EXPECT_GT(fast.normal_damper_rate * without.step, 3.0);
+  EXPECT_GT(fast.normal_damper_rate * without.step, scaled_up_to_damper);
 }
 
 TEST(MassScaling, GivesTheImpactOfTheExactModes) {
@@ -136,6 +135,7 @@ TEST(MassScaling, KeepsClearOfTheResonance) {
   scene.contacts[0].b(1, 1) = 3.0;
   StepChoice choice = choose_step(scene, splitting());
   choice.step = 0.2 / choice.contact_frequency;
+  choice.fastest = 0.0;
   choice.steps = static_cast<std::int64_t>(scene.duration / choice.step);
   const double near_a_period = 6.2 / choice.step; // where a kick meets its own answer
   scene.system.stiffness(1) = near_a_period * near_a_period;

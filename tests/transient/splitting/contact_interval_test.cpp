@@ -14,17 +14,18 @@ namespace {
 
 constexpr double step = 1e-4; // s
 
-Mobility isotropic(double w) {
-  Mobility out;
+/// Of a free mass.
+ImpulseResponse isotropic(double w) {
+  ImpulseResponse out;
   for (int i = 0; i < 3; ++i)
-    out.add(i, i, w);
+    out.w.add(i, i, w);
   return out;
 }
 
 /// A contact through a step.
-MovingContact through(const contact::Support& support, const Mobility& mobility, double h, int count,
+MovingContact through(const contact::Support& support, const ImpulseResponse& response, double h, int count,
                       const FreePath& path, const ContactPast& past, const Components& held = {}) {
-  const ContactIntervals intervals(support, {}, mobility, false, h, 1e-3, {});
+  const ContactIntervals intervals(support, {}, response, false, h, 1e-3, {});
   const IntervalTable table = intervals.table(count);
   MovingContact m;
   m.path = path;
@@ -33,7 +34,7 @@ MovingContact through(const contact::Support& support, const Mobility& mobility,
   for (int index = 0; index < count; ++index) {
     intervals.find_force(m, table, index);
     intervals.move(m, table);
-    intervals.extrapolate(m);
+    ContactIntervals::extrapolate(m, table);
   }
   return m;
 }
@@ -156,7 +157,7 @@ TEST(ContactIntervals, FollowTheWallOfAHole) {
     for (int index = 0; index < count; ++index) {
       intervals.find_force(m, table, index);
       intervals.move(m, table);
-      intervals.extrapolate(m);
+      ContactIntervals::extrapolate(m, table);
       EXPECT_TRUE(m.course.past.closed) << index;
     }
     const double share = count == 20 ? 0.025 : 0.006; // of order 2
@@ -185,7 +186,7 @@ TEST(ContactIntervals, FindTheSameForceAgainFromTheSameCourse) {
       m.course = before;
       m.others = {others, 0.0, 0.0};
       m.force = m.growth = {};
-      intervals.apply_own_force(m);
+      ContactIntervals::apply_own_force(m, table);
       intervals.find_force(m, table, 0);
       const ContactState& s = m.course.state;
       const ContactPast& past = m.course.past;
