@@ -179,17 +179,20 @@ double least_steps(const Scene& scene) {
   return std::max(fewest_steps, std::floor(most_least_steps * share * share));
 }
 
-/// Of splitting: of the longest step beside modes that are made heavier. Beside Hunt and Crossley's dampers none is, at no step.
-Limit limit_of_scaled_modes(const StepChoice& c, double fineness) {
+/// The step of splitting with modes made heavier. Beside Hunt and Crossley's dampers none is, at no step.
+/// @param modes  s, step that follows all of them
+Limit limit_of_scaled_modes(const StepChoice& c, double modes, double fineness) {
   if (c.hunt_crossley)
     return {0.0, ""};
-  const double contacts = std::max(c.contact_frequency, c.stick_frequency);
-  const Limit slower{limits_of(c.scheme).highest_mode.at(fineness) / (scaled_above * contacts),
-                     fmt::format("modes up to twice the contact frequency {:.4g} rad/s", contacts)};
-  const Limit slow{(1.0 - time_round_off) * scaled_up_to_damper / c.normal_damper_rate,
-                   "modes that are made heavier beside normal dampers",
-                   "; a smaller normal_damping makes the step longer"};
-  return slow.step < slower.step ? slow : slower;
+  const bool sticks = c.stick_frequency > c.contact_frequency;
+  const double frequency = sticks ? c.stick_frequency : c.contact_frequency;
+  const Limit slower{limits_of(c.scheme).highest_mode.at(fineness) / (scaled_above * frequency),
+                     fmt::format("modes up to twice the {} {:.4g} rad/s",
+                                 sticks ? "frequency of sticking contacts" : "contact frequency", frequency)};
+  const Limit damped{(1.0 - time_round_off) * scaled_up_to_damper / c.normal_damper_rate,
+                     "modes that are made heavier beside normal dampers",
+                     "; a smaller normal_damping makes the step longer"};
+  return std::max(damped.step, modes) < slower.step ? damped : slower;
 }
 
 /// The longest step that the terms allow, but for whole steps that cover the duration.
@@ -212,7 +215,7 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && contacts && c.highest_mode > 0.0) {
     const Limit modes = limit_of(mode_term(c, contacts), fineness);
-    if (const Limit scaled = limit_of_scaled_modes(c, fineness); scaled.step < c.step)
+    if (const Limit scaled = limit_of_scaled_modes(c, modes.step, fineness); scaled.step < c.step)
       limit(scaled.step > modes.step ? scaled : Limit{modes.step, modes.reason, scaled.cure});
     const double most = limits_of(c.scheme).highest_mode.largest;
     if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))

@@ -298,6 +298,16 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
   expect_governed(above(2.1), splitting(), beside_scaled / 200.0,
                   "modes up to twice the contact frequency 200 rad/s");
   EXPECT_EQ(choose_step(above(2.1), splitting()).scaled, 1);
+  const Scene sticking = scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}, 1000.0, Vec3(0, 8e8, 0));
+  expect_governed(sticking, splitting(), beside_scaled / 200.0,
+                  "modes up to twice the frequency of sticking contacts 200 rad/s");
+  // a normal damper is a cause only where modes could be made heavier without it
+  for (const double times : {1.9, 40.0}) {
+    Scene damped = above(times);
+    damped.contacts.front().support.normal.damping = 3200.0 * mass;
+    EXPECT_EQ(mentions(choose_step(damped, splitting()).reason, "a smaller normal_damping"), times > 2.0)
+        << choose_step(damped, splitting()).reason;
+  }
 }
 
 /// No automatic step is one that is warned about where it is given, whatever the accuracy.
