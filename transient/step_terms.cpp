@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_terms.hpp"
-#include <algorithm>
 
 namespace fretwork::transient {
+
 StepTerm mode_term(const StepChoice& c, bool contacts) {
   const SchemeLimits& limits = limits_of(c.scheme);
   StepTerm out{"the highest mode", "w_max h", c.highest_mode, "rad/s", limits.highest_mode};

@@ -52,17 +52,14 @@ AllUnresolved unresolved(const StepChoice& c) {
   return out;
 }
 
-/// s, a step that resolves everything, to three digits. The highest mode asks for less beside dampers that are slow in a shorter step.
-double resolving_step(StepChoice c) {
-  for (AllUnresolved left = unresolved(c); !left.empty(); left = unresolved(c)) {
-    const auto worst =
-        std::min_element(left.begin(), left.end(), [](const Unresolved& one, const Unresolved& other) {
-          return one.longest < other.longest;
-        });
-    c.step = worst->longest * (1.0 - time_round_off);
-  }
-  const double digit = std::pow(10.0, std::floor(std::log10(c.step)) - 2.0);
-  return std::floor(c.step / digit * (1.0 + 10.0 * time_round_off)) * digit;
+/// s, a step that resolves all of it, to three digits.
+double resolving_step(const AllUnresolved& all) {
+  const auto worst =
+      std::min_element(all.begin(), all.end(), [](const Unresolved& one, const Unresolved& other) {
+        return one.longest < other.longest;
+      });
+  const double digit = std::pow(10.0, std::floor(std::log10(worst->longest)) - 2.0);
+  return std::floor(worst->longest / digit * (1.0 + 10.0 * time_round_off)) * digit;
 }
 
 /// One warning of all that the step does not resolve; none where that is nothing.
@@ -86,8 +83,8 @@ std::vector<std::string> warnings_of_given_step(const StepChoice& c) {
   if (all.empty())
     return {};
   return warning_of(c, all,
-                    fmt::format("take a smaller step or leave it out; {:.3g} s would do{}", resolving_step(c),
-                                all.size() > 1 ? " for all of them" : ""));
+                    fmt::format("take a smaller step or leave it out; {:.3g} s would do{}",
+                                resolving_step(all), all.size() > 1 ? " for all of them" : ""));
 }
 
 std::vector<std::string> warnings_of_automatic_step(const StepChoice& c) {

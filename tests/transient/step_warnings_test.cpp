@@ -85,7 +85,7 @@ TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
   EXPECT_EQ(choose_step(scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}}), splitting()).normal_damper_rate, 0.0);
 }
 
-// Their rate grows with penetrations that no one knows before the run: they count as fast at any step.
+// Their rate grows with penetrations that no one knows before the run: no mode is made heavier, at any step.
 TEST(StepWarnings, FollowAllModesBesideHuntAndCrossleysDampers) {
   Scene scene = scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}});
   scene.system.stiffness.setConstant(1e6); // 1000 rad/s, above twice w_c = 200
