@@ -71,7 +71,7 @@ public:
   [[nodiscard]] double fluid_form(const double* y);
   /// Adds the forces of motion on all modes. No allocation.
   void add_forces(const double* y, double* force) const;
-  /// Displacement of the blocks' modes after one step from rest under a constant force.
+  /// Displacement and velocity of the blocks' modes after one step from rest under a constant force.
   void response(const double* force, double* moved, double* velocity) const;
 
 private:

@@ -195,7 +195,8 @@ void CoupledContacts::move(int first) {
   bool holds_back = false;
   for (int i = first; i >= 0; i = next_[i])
     for (const auto& place : blocks_.places[moving_[i].number]) {
-      move_in_intervals_of(place.block, count);
+      if (coupled)
+        move_in_intervals_of(place.block, count);
       holds_back = holds_back || moving_blocks_[place.block].holds_back;
     }
   for (int i = first; i >= 0; i = next_[i]) {

@@ -6,8 +6,8 @@
 namespace fretwork::transient {
 namespace {
 
-/// w h of modes that hold back a part of a force within the step. Slower ones hold back less than 3 % of it; of faster ones, which no step follows, V would
-/// make W negative from 4 on.
+/// w h of modes that hold back a part of a force within the step. Slower ones hold back less than 3 % of it; faster ones are followed by no step, and from pi on
+/// would turn the velocity that it gives.
 constexpr double least_held_back = 0.6, most_held_back = 3.0;
 
 /// Component x_loc y_loc z_loc of y z x.

@@ -108,6 +108,7 @@ TEST(MassScaling, LeavesModesBesideFastNormalDampers) {
   scene.contacts[0].support.normal.damping = 100.0 * without.contact_frequency;
   const StepChoice fast = choose_step(scene, splitting());
   EXPECT_EQ(fast.scaled, 0);
+  EXPECT_LE(fast.highest_mode * fast.step, limits_of(SchemeKind::splitting).highest_mode.largest);
   EXPECT_GT(fast.normal_damper_rate * without.step, scaled_up_to_damper);
 }
 

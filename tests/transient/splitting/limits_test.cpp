@@ -183,7 +183,7 @@ TEST(SplittingLimits, OfTangentialDampersGiveFriction) {
   expect_at_limit(pressed_mass(0.2 * contact, fastest_damper, 3.0));
 }
 
-// In a step the fast mode holds back a third of the velocity that a force gives it.
+// In a step the fast mode holds back 44 % of the velocity that a force gives it.
 TEST(SplittingLimits, OfModesBesideTangentialDampersGiveFriction) {
   for (const double share : {0.5, 1.0})
     for (const double amplitude : {1.2, 3.0}) {
