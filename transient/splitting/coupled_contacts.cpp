@@ -46,8 +46,7 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
       const auto size = blocks_.contacts[block].size();
       for (std::size_t from = 0; from < size; ++from) {
         const contact::Support& other = contacts.supports[blocks_.contacts[block][from]];
-        const double coupling =
-            responses_[block][from * size + static_cast<std::size_t>(local)].over(step).largest();
+        const double coupling = responses_[block][from * size + static_cast<std::size_t>(local)].w.largest();
         rates.normal += other.normal.damping * coupling;
         rates.by_penetration += other.normal.stiffness * other.normal.dissipation * coupling;
         if (other.friction.active())

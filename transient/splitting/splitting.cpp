@@ -7,7 +7,7 @@
 ///    once more, under the mean and the first moment of the forces found. Where these push an open contact into its obstacle, step 3 is made
 ///    again with it.
 /// Order 2 in displacement, velocity and force, with dampers and friction, through impacts. Step 3 asks w_c dt to be resolved, dt the interval;
-/// h w_max below 2.5, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384.
+/// h w_max up to 1.75, in which the cubic that contacts follow between the ends of a step is the modes' motion to (w h)^4/384 : 2.4 %.
 ///
 /// No contact is closed in a step of length L where its gaps at both ends exceed a third of its speeds there times L: its path is in the hull of u0,
 /// u0 + w0 L/3, u1 - w1 L/3, u1, and gaps are concave functions of it; of round bodies side by side, whose gap is convex, where they exceed the
