@@ -67,11 +67,12 @@ public:
                                                  : std::max<std::size_t>(1, place.sides.size());
       supports_.push_back({places_.size(), count});
       places_.insert(places_.end(), count, of_contact(place.contacts.front()));
-      for (std::size_t k = 0; k < place.sides.size(); ++k)
-        places_[supports_.back().first + k] = of_contact(place.sides[k].parts.front().contact);
+      for (std::size_t k = 0; k < place.sides.size(); ++k) {
+        wear::Place& side = places_[supports_.back().first + k];
+        side = of_contact(place.sides[k].parts.front().contact);
+        side.support.initial_depth = place.sides[k].initial_depth;
+      }
     }
-    for (const wear::Place& place : places_)
-      states_.push_back({new_place(place), new_place(place), new_place(place)});
     for (auto& lives : lives_)
       lives.assign(places_.size(), {no_life, no_life, no_life});
     outside_.assign(worn.size(), false);
@@ -81,6 +82,8 @@ public:
   /// Wears at the work rates of a stage until the next one is due. @return what comes next
   wear::Progress advance(const results::Wear& stage) {
     set_loads(stage);
+    if (states_.empty())
+      begin();
     wear::AdvanceOptions options{options_.years * wear::year - time_, options_.gap_share, options_.wall_share,
                                  options_.least_wall_share};
     std::vector<PlaceState> states;
@@ -107,7 +110,7 @@ public:
         if (by_sector(worn_[s]))
           out[c].obstacle = contact::Profile(wear::opened_profile(worn));
         else if (worn_[s].sides.empty())
-          out[c].obstacle = opened_obstacle(placed_[c].obstacle, worn.front().depth.total());
+          out[c].obstacle = opened_obstacle(placed_[c].obstacle, worn.front().opened);
         else
           open_contact(c, worn_[s].sides, worn, out[c]);
     }
@@ -149,10 +152,10 @@ private:
         if (part.contact != contact)
           continue;
         if (!part.side) { // its only one
-          placed.obstacle = opened_obstacle(placed.obstacle, worn[k].depth.total());
+          placed.obstacle = opened_obstacle(placed.obstacle, worn[k].opened);
           return;
         }
-        growth[*part.side] = worn[k].depth.total();
+        growth[*part.side] = worn[k].opened;
       }
     open_sides(growth, placed);
   }
@@ -175,6 +178,35 @@ private:
         loads_.push_back({loads_of(support, scar, End::value, share),
                           loads_of(support, scar, End::low, share),
                           loads_of(support, scar, End::high, share)});
+      }
+    }
+  }
+
+  /// W, mean over the states.
+  [[nodiscard]] double work_rate(std::size_t k) const {
+    double out = 0.0;
+    for (const OperatingState& state : loads_[k][at(End::value)])
+      out += state.share * state.work_rate;
+    return out;
+  }
+
+  /// By the loads of the first stage. Sectors are of the age of the one with the most work, whose depth is the initial one of the tube.
+  void begin() {
+    for (std::size_t s = 0; s < worn_.size(); ++s) {
+      const auto [first, count] = supports_[s];
+      std::size_t most = first;
+      for (std::size_t k = first; k < first + count; ++k)
+        if (work_rate(k) > work_rate(most))
+          most = k;
+      for (std::size_t k = first; k < first + count; ++k) {
+        auto& states = states_.emplace_back();
+        for (const End end : ends) {
+          const auto& loads = loads_[k][at(end)];
+          const double age =
+              by_sector(worn_[s]) ? place_at_start(places_[most], loads_[most][at(end)]).age : 0.0;
+          states[at(end)] =
+              age > 0.0 ? place_of_age(places_[k], loads, age) : place_at_start(places_[k], loads);
+        }
       }
     }
   }

@@ -42,6 +42,14 @@ void warn_of_depths(results::RunResults& out) {
                            100.0 * s.share_above);
       });
   warn(
+      out, [](const WearOfSupport& s) { return s.depth.first().value >= s.limit; },
+      [](const WearOfSupport& s) {
+        return fmt::format(
+            "the tube has lost its limit before: initial_wear is {:.3g} of the wall, limit {:.3g}; no "
+            "life is left",
+            s.depth.first().value / s.wall, s.limit / s.wall);
+      });
+  warn(
       out, [](const WearOfSupport& s) { return s.depth.last().value > s.wall; },
       [](const WearOfSupport& s) {
         return fmt::format("after {:.4g} years the depth is {:.3g} mm and the wall {:.3g} mm: the tube is "
@@ -101,6 +109,40 @@ void note_corners(results::RunResults& out) {
       years_text(deepest->corner_years)));
 }
 
+double initial_depth(const WearOfSupport& support) {
+  const double depth = support.depth.first().value;
+  return std::isnan(depth) ? 0.0 : depth; // outside its law
+}
+
+/// Of tubes that are worn already, with the deepest of them.
+void note_initial_wear(results::RunResults& out) {
+  std::vector<std::string> names;
+  const WearOfSupport* deepest = nullptr;
+  for (const WearOfSupport& s : out.wear->supports)
+    if (initial_depth(s) > 0.0) {
+      names.push_back(s.name);
+      // of equally deep ones that of the fastest wear
+      if (const auto order =
+              [](const WearOfSupport& one) {
+                return std::pair(initial_depth(one),
+                                 one.initial_years > 0.0 ? -one.initial_years : -HUGE_VAL);
+              };
+          !deepest || order(s) > order(*deepest))
+        deepest = &s;
+    }
+  if (!deepest)
+    return;
+  const double depth = initial_depth(*deepest);
+  out.notes.push_back(fmt::format(
+      "wear of {} goes on from initial_wear, years count from there: \"{}\" begins with a depth of {:.3g} mm "
+      "({:.3g} % of "
+      "the wall), which {}",
+      core::list_names(names, most_worn_named), deepest->name, 1e3 * depth, 100.0 * depth / deepest->wall,
+      std::isnan(deepest->initial_years)
+          ? std::string("the work rates never would have worn")
+          : fmt::format("the work rates would have worn in {:.3g} years", deepest->initial_years)));
+}
+
 bool combines_states(const study::Wear& entry) {
   return entry.states.size() > 1 || entry.states.front().given || entry.states.front().results;
 }
@@ -157,6 +199,7 @@ void judge_wear(const study::Study& study, const std::vector<WornPlace>& places,
     return;
   warn_of_depths(out);
   note_corners(out);
+  note_initial_wear(out);
   if (std::none_of(study.wear.begin(), study.wear.end(), combines_states))
     warn_of_unworn(places, placed, out);
 }

@@ -145,6 +145,8 @@ void set_histories(const wear::WornSupport& worn, const std::vector<double>& tim
   append(history.high, time.size(), share, &results::WearCurves::high, out);
   if (history.outside)
     out.outside = history.outside->text;
+  if (const auto before = wear::initial_wear(worn, states); before && before->age > 0.0)
+    out.initial_years = before->age / wear::year;
   const wear::Life life = wear::time_to_limit(worn, states);
   out.life = life_of(life.value.tube, life.at_low.tube, life.at_high.tube);
   if (life.value.support)
@@ -231,6 +233,7 @@ void add_sides(const WornPlace& place, const StateRates& rates,
     wear::WornSupport worn = place.worn;
     if (is_at_rest(side.states))
       worn.tube = worn.support = wear::Archard{0.0};
+    worn.initial_depth = worn_side.initial_depth;
     set_histories(worn, support.time, indices, 1.0, side);
     support.sides.push_back(std::move(side));
   }

@@ -213,6 +213,25 @@ std::vector<WornSide> sides_of(const wear::Pairing& pairing, const std::vector<P
   return out.size() > 1 ? out : std::vector<WornSide>{};
 }
 
+/// What scars have lost before, by the shares of the entry.
+void set_initial_depths(const study::Wear& entry, WornPlace& place) {
+  const double wall = place.worn.wall;
+  place.worn.initial_depth = entry.initial_wear * wall;
+  std::vector<std::string> names;
+  for (WornSide& side : place.sides) {
+    const auto own = entry.initial_wear_of.find(side.name);
+    side.initial_depth = wall * (own == entry.initial_wear_of.end() ? entry.initial_wear : own->second);
+    names.push_back(side.name);
+  }
+  for (const auto& [side, share] : entry.initial_wear_of)
+    if (std::find(names.begin(), names.end(), side) == names.end())
+      throw core::Error(
+          names.empty() ? fmt::format("initial_wear.{}: there is one scar and no side \"{}\"; give a number",
+                                      side, side)
+                        : fmt::format("initial_wear.{}: there is no side \"{}\"{}", side, side,
+                                      core::name_help(side, names)));
+}
+
 /// Results are filed under the names of supports.
 void check_names(const study::Study& study, const std::vector<WornPlace>& places) {
   std::set<std::string> names;
@@ -234,6 +253,7 @@ WornPlace place_of(const study::Study& study, const fem::Model& model,
     place.worn.pairing = geometry.pairing;
     place.worn.wall = geometry.wall;
     place.sides = sides_of(place.worn.pairing, placed, contacts, place.turns);
+    set_initial_depths(entry, place);
     place.worn.limit = entry.limit;
     place.worn.support_limit = entry.support_limit;
     std::tie(place.worn.tube, place.source) = law_of(entry, place.worn.pairing);

@@ -20,7 +20,8 @@ struct WornSide {
     std::optional<std::size_t> side; ///< number among the sides of this contact; nothing: its only one
   };
   std::string name;
-  std::vector<Part> parts; ///< whose work rates are summed
+  std::vector<Part> parts;    ///< whose work rates are summed
+  double initial_depth = 0.0; ///< m, of the tube
 };
 
 struct WornPlace {
@@ -36,7 +37,7 @@ struct WornPlace {
 };
 
 /// @throws core::Error for a name that fits no contact, a contact that two entries name, a size that nothing gives, an obstacle without a
-///         geometry of wear, a coefficient that the bank does not have, contacts of one support with different local axes, but for bars on several sides
+///         geometry of wear, a coefficient that the bank does not have, initial wear of a side that there is not, contacts of one support with different local axes, but for bars on several sides
 [[nodiscard]] std::vector<WornPlace> worn_places(const study::Study& study, const fem::Model& model,
                                                  const std::vector<PlacedContact>& placed);
 

@@ -30,13 +30,15 @@ struct SizeOf {
   const char* name;
   double WornScar::*value;
 };
-constexpr SizeOf scar_sizes[] = {{"scar_width", &WornScar::scar_width},
+constexpr SizeOf scar_sizes[] = {{"initial_years", &WornScar::initial_years},
+                                 {"scar_width", &WornScar::scar_width},
                                  {"scar_length", &WornScar::scar_length},
                                  {"scar_half_angle", &WornScar::scar_half_angle}};
 constexpr const char* units =
     "coefficient, support_coefficient: m2/N; radius, wall, length, clearance, limit, support_limit, "
     "scar_width, "
-    "scar_length, corner_depth: m; corner_years: years; inclination, scar_half_angle: rad; work_rate (value, "
+    "scar_length, corner_depth: m; corner_years, initial_years: years; inclination, scar_half_angle: rad; "
+    "work_rate (value, "
     "low, high): W; life_years, "
     "support_life_years (value, low, high): years, infinity: never";
 

@@ -96,6 +96,7 @@ void combine_sides(WearOfSupport& support) {
           fmt::format("{}{}: {}", support.outside.empty() ? "" : "; ", text_of_side(side.name), side.outside);
     if (const double depth = side.depth.last().value; depth > deepest) {
       deepest = depth;
+      support.initial_years = side.initial_years;
       support.scar_width = side.scar_width;
       support.scar_length = side.scar_length;
       support.scar_half_angle = side.scar_half_angle;

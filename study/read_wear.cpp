@@ -32,6 +32,7 @@ const Keys wear_keys{{"name",
                       "inclination",
                       "limit",
                       "support_limit",
+                      "initial_wear",
                       "years",
                       "confidence",
                       "sectors",
@@ -240,6 +241,25 @@ std::string name_of(WearGeometry geometry) {
       ->first;
 }
 
+/// A share of the wall, or one by sides.
+void read_initial_wear(const TableReader& table, Wear& wear) {
+  const Value* found = table.find("initial_wear");
+  if (!found)
+    return;
+  const auto share = [](const Value& value, const std::string& path) {
+    const double out = to_number(value, path, {Range::at_least_zero});
+    if (out >= 1.0)
+      fail(value, path, "a share of the wall below 1 is expected, such as 0.2 for 20 %");
+    return out;
+  };
+  const std::string path = table.path("initial_wear");
+  if (const Table* sides = found->table())
+    for (const auto& [side, value] : *sides)
+      wear.initial_wear_of[side] = share(value, path + "." + side);
+  else
+    wear.initial_wear = share(*found, path);
+}
+
 std::vector<Wear> read_wear(const TableReader& root, const fs::path& folder) {
   std::vector<Wear> all;
   std::string general;
@@ -265,6 +285,7 @@ std::vector<Wear> read_wear(const TableReader& root, const fs::path& folder) {
     if (wear.limit > 1.0)
       table.fail_at("limit", "a share of the wall of at most 1 is expected");
     wear.support_limit = table.optional_number("support_limit", {Range::above_zero, "m"});
+    read_initial_wear(table, wear);
     wear.years = table.number_or("years", wear.years, {Range::above_zero, "years"});
     wear.confidence = table.optional_number("confidence", {Range::above_zero});
     if (wear.confidence && *wear.confidence >= 1.0)

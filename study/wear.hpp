@@ -10,6 +10,7 @@
 #include "wear/work_rate.hpp"
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,8 +48,10 @@ struct Wear {
   std::optional<double> half_angle; ///< rad, of a land
   int lands = 4;                    ///< of geometry lands
   double inclination = 0.0;         ///< rad
-  double limit = fretwork::wear::default_limit; ///< of the wall
-  std::optional<double> support_limit;          ///< m
+  double limit = fretwork::wear::default_limit;  ///< of the wall
+  std::optional<double> support_limit;           ///< m
+  double initial_wear = 0.0;                     ///< of the wall, lost before the study begins
+  std::map<std::string, double> initial_wear_of; ///< likewise, by sides
   double years = 40.0;
   std::optional<double> confidence; ///< of the interval of a work rate; none: +- its standard error
   int sectors = 36;                 ///< of the work by angle

@@ -143,8 +143,9 @@ std::optional<PlaceState> state_after(const Wearing& at, double time) {
   const auto depth = at.depth_of(out.tube_volume, out.support_volume);
   if (!depth)
     return {};
+  out.opened += depth->total() - out.depth.total();
   out.depth = *depth;
-  out.gap = at.place.initial_gap + depth->total();
+  out.gap = at.place.initial_gap + out.opened;
   return out;
 }
 
@@ -164,6 +165,27 @@ PlaceState new_place(const Place& place) {
   check_not_negative("gap opening", "initial gap", place.initial_gap, "m");
   PlaceState out;
   out.gap = place.initial_gap;
+  return out;
+}
+
+PlaceState place_of_age(const Place& place, std::span<const OperatingState> loads, double age) {
+  check_not_negative("gap opening", "age", age, "s");
+  std::vector<PlaceOutside> outside;
+  PlaceState out = described_state_after(wearing_at(place, new_place(place), loads, 0, outside), age);
+  out.opened = 0.0;
+  out.gap = place.initial_gap;
+  return out;
+}
+
+PlaceState place_at_start(const Place& place, std::span<const OperatingState> loads) {
+  PlaceState out = new_place(place);
+  std::vector<PlaceOutside> outside;
+  const Wearing at = wearing_at(place, out, loads, 0, outside);
+  const InitialWear worn = initial_wear(place.support, at.tube, at.support);
+  out.tube_volume = worn.tube;
+  out.support_volume = worn.support;
+  out.age = worn.age;
+  out.depth = at.depth_of(worn.tube, worn.support).value();
   return out;
 }
 

@@ -7,7 +7,7 @@
 ///            d(p_t + p_s) <= max(min(gap_share gap, wall_share wall), least_wall_share wall)
 ///            p_t <= limit wall,   T <= horizon
 ///     3. V_t, V_s grow by V(age + T) - V(age) of their laws at W_k; p_t, p_s follow (depth.hpp); gap = initial gap +
-///        p_t + p_s; back to 1.
+///        what p_t + p_s has grown by; back to 1.
 ///
 /// A place is a support, or one angular sector of it with the depths of sectors. It ends when the geometry stands
 /// (nothing wears at the present work rates), a tube has lost its limit, or the horizon is reached. T is of order 1 in
@@ -28,8 +28,9 @@
 namespace fretwork::wear {
 
 struct Place {
-  WornSupport support;   ///< its `support_limit` does not end an advance
-  double initial_gap;    ///< m, >= 0: of new tube and support, in the direction of wear
+  WornSupport support; ///< its `support_limit` does not end an advance
+  double
+      initial_gap; ///< m, >= 0: where wear begins, of a new tube or with its initial depth, in the direction of wear
   std::string name = {}; ///< in messages; empty: the number of the place
 };
 
@@ -37,11 +38,17 @@ struct PlaceState {
   double tube_volume = 0.0, support_volume = 0.0; ///< V_t, V_s, m3, since each was new
   double age = 0.0;                               ///< s, of both
   PairDepth depth{0.0, 0.0};                      ///< p_t, p_s, m
-  double gap = 0.0;                               ///< m
+  double opened = 0.0; ///< m: what p_t + p_s has grown by since the wear that is followed began
+  double gap = 0.0;    ///< m
 };
 
 /// New tube, new support.
 [[nodiscard]] PlaceState new_place(const Place& place);
+/// With the initial depth of its tube, by the first work rates (life.hpp).
+[[nodiscard]] PlaceState place_at_start(const Place& place, std::span<const OperatingState> loads);
+/// Worn for a time (s, >= 0) at these before its wear is followed.
+/// @throws core::Error where that leaves what the geometry describes
+[[nodiscard]] PlaceState place_of_age(const Place& place, std::span<const OperatingState> loads, double age);
 
 struct AdvanceOptions {
   double horizon;                  ///< s, > 0: time that is left

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "wear/check.hpp"
 #include "wear/root.hpp"
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -14,6 +15,7 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double growth = 1.05;     ///< of the time from one look to the next
+constexpr double least_look = 1.0;  ///< s, at least
 constexpr double round_off = 1e-12; ///< of a depth from a bracketed root
 
 enum class Bound { value, low, high };
@@ -29,24 +31,28 @@ std::vector<OperatingState> at_bound(std::span<const UncertainState> states, Bou
   return out;
 }
 
+/// One body against time, worn before it begins.
+struct AgedVolume {
+  WornVolume law;
+  double age = 0.0, before = 0.0; ///< s, m3
+  [[nodiscard]] double at(double time) const { return before + (law.at(age + time) - law.at(age)); }
+  [[nodiscard]] std::optional<double> time_of(double volume) const {
+    if (volume <= before)
+      return 0.0;
+    const auto time = law.time_of(law.at(age) + volume - before);
+    return time ? std::optional(*time - age) : time;
+  }
+};
+
 /// Both bodies against time.
 struct Pair {
   const Pairing& pairing;
-  WornVolume tube, support;
+  AgedVolume tube, support;
   [[nodiscard]] std::optional<PairDepth> depth(double time) const {
     return depths(pairing, tube.at(time), support.at(time));
   }
   [[nodiscard]] double volume(double time) const { return tube.at(time) + support.at(time); }
 };
-
-std::variant<Pair, OutsideLaw> pair_of(const WornSupport& place, std::span<const OperatingState> states) {
-  const LawResult tube = worn_volume(place.tube, states), support = worn_volume(place.support, states);
-  if (tube.outside)
-    return *tube.outside;
-  if (support.outside)
-    return *support.outside;
-  return Pair{place.pairing, *tube.volume, *support.volume};
-}
 
 enum class Body { tube, support };
 
@@ -70,17 +76,19 @@ double end_of_geometry(const Pair& pair, double inside, double beyond) {
 
 TimeToLimit first_time(const Pair& pair, Body body, double limit) {
   const auto& own = body == Body::tube ? pair.tube : pair.support;
-  const auto alone = own.time_of(volume_alone(pair.pairing, body, limit));
-  if (!alone)
-    return {LifeEnd::never, never};
   const auto excess = [&](double time) {
     const auto depth = pair.depth(time);
     return depth ? of(*depth, body) - limit : unknown;
   };
+  if (excess(0.0) >= -round_off * limit)
+    return {LifeEnd::reached, 0.0};
+  const auto alone = own.time_of(volume_alone(pair.pairing, body, limit));
+  if (!alone)
+    return {LifeEnd::never, never};
   if (excess(*alone) >= -round_off * limit)
     return {LifeEnd::reached, *alone};
   double before = 0.0;
-  for (double time = *alone; std::isfinite(time); time *= growth) {
+  for (double time = std::max(*alone, least_look); std::isfinite(time); time *= growth) {
     double found = excess(time);
     if (std::isnan(found)) {
       time = end_of_geometry(pair, before, time);
@@ -97,7 +105,27 @@ TimeToLimit first_time(const Pair& pair, Body body, double limit) {
   return {LifeEnd::never, never};
 }
 
+std::variant<Pair, OutsideLaw> pair_of(const WornSupport& place, std::span<const OperatingState> states) {
+  const LawResult tube = worn_volume(place.tube, states), support = worn_volume(place.support, states);
+  if (tube.outside)
+    return *tube.outside;
+  if (support.outside)
+    return *support.outside;
+  const InitialWear worn = initial_wear(place, *tube.volume, *support.volume);
+  return Pair{place.pairing, {*tube.volume, worn.age, worn.tube}, {*support.volume, worn.age, worn.support}};
+}
+
 } // namespace
+
+InitialWear initial_wear(const WornSupport& place, const WornVolume& tube, const WornVolume& support) {
+  check(place);
+  if (place.initial_depth == 0.0)
+    return {};
+  const TimeToLimit found = first_time({place.pairing, {tube}, {support}}, Body::tube, place.initial_depth);
+  if (found.end == LifeEnd::reached)
+    return {found.time, tube.at(found.time), support.at(found.time)};
+  return {0.0, volume_alone(place.pairing, Body::tube, place.initial_depth), 0.0};
+}
 
 void check(const WornSupport& place) {
   check(place.pairing);
@@ -109,12 +137,27 @@ void check(const WornSupport& place) {
         "wear: limit = {:g} is no share of the wall; give a number > 0 and at most 1", place.limit));
   if (place.support_limit)
     check_positive("wear", "limit of the support", *place.support_limit, "m");
-  const double deepest = place.limit * place.wall, most = largest_depth(place.pairing);
+  check_not_negative("wear", "initial depth", place.initial_depth, "m");
+  const double most = largest_depth(place.pairing);
+  if (place.initial_depth > most)
+    throw core::Error(
+        fmt::format("wear: an initial depth of {:g} m is beyond the {:g} m that the geometry describes; give "
+                    "a smaller one or the exact form",
+                    place.initial_depth, most));
+  const double deepest = place.limit * place.wall;
   if (deepest > most || place.support_limit.value_or(0.0) > most)
     throw core::Error(
         fmt::format("wear: a limit of {:g} m is beyond the {:g} m that the geometry describes; give a "
                     "thinner wall, a lower limit or the exact form",
                     deepest > most ? deepest : *place.support_limit, most));
+}
+
+std::optional<InitialWear> initial_wear(const WornSupport& place, std::span<const UncertainState> states) {
+  const std::vector<OperatingState> at_value = at_bound(states, Bound::value);
+  const LawResult tube = worn_volume(place.tube, at_value), support = worn_volume(place.support, at_value);
+  if (!tube.volume || !support.volume)
+    return {};
+  return initial_wear(place, *tube.volume, *support.volume);
 }
 
 std::vector<DepthAt> depth_history(const WornSupport& place, std::span<const OperatingState> states,

@@ -9,6 +9,9 @@
 /// p_t <= p(V_t): t_limit is at or after that time, and is looked for from there on in steps of 5 %, then by
 /// bracketing. "Never": the volume cannot be reached, or stops growing before.
 /// The interval of work rates is carried through: its upper end gives the larger depths and the shorter life.
+///
+/// A tube that is worn already: t = 0 is where p_t is its initial depth, on the curve of the work rates at hand: V(t) = V(age + t), p_t(age) the
+/// initial depth. Where these never wear as much the tube begins with the volume of that depth, the support new, and V(t) = V(0) + V_new(t).
 #pragma once
 #include "wear/depth.hpp"
 #include "wear/laws.hpp"
@@ -28,7 +31,17 @@ struct WornSupport {
   Law support = Archard{0.0};               ///< 0: the support does not wear
   double limit = default_limit;             ///< of the wall, 0 < limit <= 1
   std::optional<double> support_limit = {}; ///< m, > 0: depth that the support may lose
+  double initial_depth = 0.0;               ///< m, >= 0, of the tube at t = 0
 };
+
+/// What has been worn at t = 0.
+struct InitialWear {
+  double age = 0.0; ///< s, that the work rates would have taken for it; 0: new, or they never would
+  double tube = 0.0, support = 0.0; ///< m3
+};
+/// @param tube, support  by the laws of the place   @throws core::Error for input out of range
+[[nodiscard]] InitialWear initial_wear(const WornSupport& place, const WornVolume& tube,
+                                       const WornVolume& support);
 
 /// An operating state whose work rate is known within an interval.
 struct UncertainState {
@@ -36,6 +49,10 @@ struct UncertainState {
   WorkRate work_rate;                        ///< of the support: the sum over its points, the mean over draws
   std::optional<ImpactSliding> indices = {}; ///< for kwu_epri
 };
+
+/// At the work rates themselves; nothing where a law does not apply.
+[[nodiscard]] std::optional<InitialWear> initial_wear(const WornSupport& place,
+                                                      std::span<const UncertainState> states);
 
 struct DepthAt {
   double time;                        ///< s
@@ -79,7 +96,7 @@ struct Life {
 [[nodiscard]] BodyLives time_to_limit(const WornSupport& place, std::span<const OperatingState> states);
 [[nodiscard]] Life time_to_limit(const WornSupport& place, std::span<const UncertainState> states);
 
-/// @throws core::Error for a wall, a limit, a law or a geometry out of range
+/// @throws core::Error for a wall, a limit, an initial depth, a law or a geometry out of range
 void check(const WornSupport& place);
 
 } // namespace fretwork::wear

@@ -51,6 +51,30 @@ TEST(GapOpening, WithWorkRatesThatDoNotChangeKeepsTheLife) {
   EXPECT_TRUE(close_to(stages["gap_m"][1], gap + 0.1 * wall, bracketed)); // of both bodies together
 }
 
+TEST(GapOpening, GoesOnFromInitialWear) {
+  const Workshop folder;
+  const auto run_with = [&](const std::string& keys, const std::string& stages) {
+    return folder.run_text(
+        bundle(folder, 1, "[transient]\nduration = 0.01\n") + archard + keys +
+        "support_coefficient = 1e-14\ninitial_wear = 0.2\nstates = [{ share = 1, work_rate = 2e-3 }]\n" +
+        opening("wall_share = 0.1\nleast_wall_share = 0.1\nyears = 10000\n" + stages));
+  };
+  const Results run = run_with("", "");
+  const auto &support = run.summary["wear"]["supports"][0], &stages = opened(run)["supports"][0];
+  EXPECT_EQ(opened(run)["end"], "life_reached");
+  EXPECT_TRUE(close_to(support["initial_depth_m"], 0.2 * wall, bracketed));
+  EXPECT_TRUE(close_to(stages["life_years"]["value"], support["life_years"]["value"], bracketed));
+  EXPECT_EQ(stages["gap_m"][0], gap);
+  EXPECT_TRUE(close_to(stages["gap_m"][1], gap + 0.1 * wall, bracketed));
+  EXPECT_TRUE(close_to(stages["depth_m"].back()["value"], 0.4 * wall, bracketed));
+  // the sector with the most work begins with that depth
+  const Results sectors = run_with("geometry = \"sectors\"\nsectors = 8\n", "stages = 1\n");
+  const auto& worn = sectors.summary["wear"]["supports"][0];
+  EXPECT_TRUE(close_to(worn["initial_depth_m"], 0.2 * wall, bracketed));
+  EXPECT_TRUE(close_to(opened(sectors)["supports"][0]["life_years"]["value"], worn["life_years"]["value"],
+                       bracketed));
+}
+
 TEST(GapOpening, GivesTheLivesOfSupports) {
   const Workshop folder;
   const auto stages_of = [&](const std::string& keys) {

@@ -55,6 +55,8 @@ TEST(WearInput, IsRefusedBeforeTheRunWithTheCure) {
        {"contact \"support0\": wear coefficients: the class \"drilled_hole\" has no pair", "690_405"}},
       {"materials = \"690_405\"\ncoefficient_class = \"flat\"\nlength = 0.02\n",
        {"there is no geometry class \"flat\""}},
+      {archard + "initial_wear = { \"+y\" = 0.1 }\n",
+       {"contact \"support0\": initial_wear.+y: there is one scar and no side \"+y\"; give a number"}},
       {archard + "geometry = \"lands\"\nhalf_angle = 100\n", {"contact \"support0\": "}}};
   for (const Wrong& wrong : cases) {
     const std::string message = refused_by_check(folder, worn_bundle(folder, 1, wrong.wear));

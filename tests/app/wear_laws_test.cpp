@@ -27,6 +27,27 @@ TEST(WearLaws, OfAFlatBarHasItsReferenceLife) {
   EXPECT_FALSE(support(run)["work_rate"]["has_interval"]);
 }
 
+// 20 % of the wall is lost: V(0.4 wall) - V(0.2 wall) is left.
+TEST(WearLaws, GoOnFromInitialWear) {
+  const Workshop folder;
+  const Results run = with_given_rate(
+      folder, "geometry = \"flat_bar\"\ncoefficient = 2e-14\nlength = 8e-3\ninitial_wear = 0.2\nyears = 5\n",
+      "2e-3");
+  const wear::FlatBar bar{radius, 8e-3};
+  const double a_year = 2e-14 * 2e-3 * year, before = wear::volume(bar, 0.2 * wall);
+  const auto& worn = support(run);
+  EXPECT_TRUE(close_to(worn["initial_depth_m"], 0.2 * wall, of_sums));
+  EXPECT_TRUE(close_to(worn["initial_years"], before / a_year, of_sums));
+  EXPECT_TRUE(close_to(worn["life_years"]["value"], 10.551999 - before / a_year, 10.0 * printed));
+  EXPECT_TRUE(close_to(worn["volume_m3"]["value"], before + 5.0 * a_year, of_sums));
+  EXPECT_TRUE(close_to(worn["depth_m"]["value"], wear::depth(bar, before + 5.0 * a_year).value(), of_sums));
+  const Results spent = with_given_rate(
+      folder, "geometry = \"flat_bar\"\ncoefficient = 2e-14\nlength = 8e-3\ninitial_wear = 0.5\n", "2e-3");
+  EXPECT_EQ(support(spent)["life_years"]["value"], 0.0);
+  EXPECT_TRUE(says(spent.summary["warnings"].dump(), "initial_wear is 0.5 of the wall, limit 0.4"));
+  EXPECT_TRUE(says(run.summary["notes"].dump(), "begins with a depth of 0.218 mm (20 % of the wall)"));
+}
+
 TEST(WearLaws, OfEdfMzAppliesFromItsLeastWorkRateOn) {
   const Workshop folder;
   const std::string law = "law = \"edf_mz\"\ngeometry = \"flat_bar\"\nlength = 8e-3\nyears = 20\n";

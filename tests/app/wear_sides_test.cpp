@@ -69,6 +69,25 @@ TEST(WearSides, HaveTheirOwnWorkDepthAndYears) {
   EXPECT_EQ(support(run)["life_years"]["value"], years);
 }
 
+TEST(WearSides, HaveInitialWearOfTheirOwn) {
+  const Workshop folder;
+  const Results run =
+      folder.run_text(between_bars(folder, archard + "years = 0.1\ninitial_wear = { \"+y\" = 0.1 }\n"));
+  const auto& sides = support(run)["sides"];
+  ASSERT_EQ(sides.size(), 2u);
+  for (const auto& side : sides) {
+    const double before = side["name"] == "+y" ? wear::volume(bar, 0.109e-3) : 0.0;
+    EXPECT_TRUE(close_to(side["volume_m3"]["value"],
+                         before + coefficient * side["work_rate"]["value"].get<double>() * 0.1 * wear::year,
+                         of_sums));
+    EXPECT_EQ(side["initial_years"].is_null(), before == 0.0);
+  }
+  EXPECT_TRUE(close_to(support(run)["initial_depth_m"], 0.109e-3, of_sums));
+  const std::string other = between_bars(folder, archard + "initial_wear = { \"+z\" = 0.1 }\n");
+  const Outcome refused = folder.fretwork({"check", folder.write("study.toml", other).string()});
+  EXPECT_TRUE(says(refused.err, "initial_wear.+z: there is no side \"+z\"")) << refused.err;
+}
+
 TEST(WearSides, OfAnEggCrateAreFour) {
   const Workshop folder;
   const Results run = folder.run_text(

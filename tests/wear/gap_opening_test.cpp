@@ -87,6 +87,27 @@ TEST(GapOpening, SumsToTheLawWithoutFeedback) {
   }
 }
 
+// Given gaps are those of the worn tube: they open by what it goes on to lose.
+TEST(GapOpening, GoesOnFromInitialWear) {
+  Place place = hole_place();
+  place.support.initial_depth = 0.2 * wall;
+  const std::vector<OperatingState> loads{{1.0, 5e-3}};
+  const PlaceState start = place_at_start(place, loads);
+  EXPECT_NEAR(start.depth.tube / (0.2 * wall), 1.0, bracketed);
+  EXPECT_NEAR(start.depth.support / (0.1 * wall), 1.0, bracketed);
+  EXPECT_EQ(start.gap, clearance);
+  EXPECT_NEAR(time_to_limit(place, start, loads) / time_to_limit(place.support, loads).tube.time, 1.0,
+              bracketed);
+  const PlaceState same = place_of_age(place, loads, start.age);
+  EXPECT_EQ(same.depth.tube, start.depth.tube);
+  EXPECT_EQ(same.gap, clearance);
+  const Advance next = advance(std::array{place}, std::array{start}, std::array{loads}, {horizon});
+  EXPECT_EQ(next.limit, AdvanceLimit::gap);
+  EXPECT_NEAR(next.states[0].gap / clearance, 1.1, bracketed);
+  EXPECT_NEAR(next.states[0].opened / (0.1 * clearance), 1.0, bracketed * wall / clearance);
+  EXPECT_NEAR(next.states[0].depth.total(), start.depth.total() + 0.1 * clearance, bracketed * wall);
+}
+
 TEST(GapOpening, ConvergesWithTheFirstPowerOfTheShares) {
   // A sector, linear in V to p/R: W = W0 (g0/g)^2, dp/dt = k W, so that g^3 = g0^3 + 3 k W0 g0^2 t.
   Place place = sector_place();

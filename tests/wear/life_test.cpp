@@ -159,6 +159,76 @@ TEST(TimeToLimit, CarriesTheInterval) {
   EXPECT_EQ(time_to_limit(place, down_to_zero).at_low.tube.end, LifeEnd::never);
 }
 
+// From its initial depth a tube goes on as one of the age at which the same work rates have worn it as deep.
+TEST(InitialWear, IsOnTheCurveOfTheWorkRates) {
+  const WornSupport places[] = {
+      {bar, Archard{2e-14}, wall},
+      {hole, Archard{2e-14}, wall, Archard{1e-14}, 0.4, 0.2 * wall},
+      {hole, EdfMz{}, wall, Archard{1e-15}},
+      {SectorPair{{radius, length, 0.5}, {radius, length, 0.5}}, Archard{2e-14}, wall}};
+  for (const WornSupport& fresh : places) {
+    const BodyLives from_new = time_to_limit(fresh, always(5e-3));
+    WornSupport worn = fresh;
+    worn.initial_depth = 0.2 * wall;
+    WornSupport to_initial = fresh;
+    to_initial.limit = 0.2;
+    const double age = time_to_limit(to_initial, always(5e-3)).tube.time;
+    const BodyLives lives = time_to_limit(worn, always(5e-3));
+    EXPECT_EQ(lives.tube.end, LifeEnd::reached);
+    EXPECT_NEAR((age + lives.tube.time) / from_new.tube.time, 1.0, bracketed);
+    if (lives.support)
+      EXPECT_NEAR((age + lives.support->time) / from_new.support->time, 1.0, bracketed);
+    const auto history = depth_history(worn, always(5e-3), std::array{0.0, year, 3.0 * year});
+    EXPECT_NEAR(history[0].depth->tube / (0.2 * wall), 1.0, bracketed);
+    for (const DepthAt& at : history) {
+      const DepthAt then = depth_history(fresh, always(5e-3), std::array{age + at.time}).at(0);
+      EXPECT_NEAR(at.tube_volume / then.tube_volume, 1.0, bracketed);
+      EXPECT_NEAR(at.depth->tube / then.depth->tube, 1.0, bracketed);
+      EXPECT_NEAR(at.depth->support, then.depth->support, bracketed * wall);
+    }
+  }
+}
+
+TEST(InitialWear, StaysWhereNothingWears) {
+  WornSupport place{bar, Archard{2e-14}, wall};
+  place.initial_depth = 0.2 * wall;
+  const auto history = depth_history(place, always(0.0), std::array{0.0, 40.0 * year});
+  EXPECT_NEAR(history[1].depth->tube / (0.2 * wall), 1.0, bracketed);
+  EXPECT_EQ(history[1].tube_volume, volume(FlatBar{radius, length}, 0.2 * wall));
+  EXPECT_EQ(time_to_limit(place, always(0.0)).tube.end, LifeEnd::never);
+  // a law that ends before: the tube wears on from the volume of its depth
+  place.tube = EdfMz{1e-14, 1.2, 2.44e-8, 0.0};
+  const double in_all = 1e-14 * std::pow(5e-3, 1.2) / 2.44e-8,
+               before = volume(FlatBar{radius, length}, 0.2 * wall);
+  ASSERT_LT(in_all, before);
+  EXPECT_NEAR(depth_history(place, always(5e-3), std::array{1e4 * year})[0].tube_volume / (before + in_all),
+              1.0, bracketed);
+}
+
+TEST(InitialWear, AtTheLimitLeavesNoLife) {
+  WornSupport place{bar, Archard{2e-14}, wall, Archard{1e-14}};
+  for (const double depth : {0.4, 0.5}) {
+    place.initial_depth = depth * wall;
+    const TimeToLimit life = time_to_limit(place, always(2e-3)).tube;
+    EXPECT_EQ(life.end, LifeEnd::reached) << depth;
+    EXPECT_EQ(life.time, 0.0) << depth;
+  }
+}
+
+TEST(InitialWear, IsThatOfEachEndOfTheInterval) {
+  WornSupport place{bar, Archard{2e-14}, wall};
+  place.initial_depth = 0.1 * wall;
+  const std::array states{UncertainState{1.0, work_rate_with_error(2e-3, 1e-3)}};
+  const DepthHistory history = depth_history(place, states, std::array{0.0, year});
+  EXPECT_NEAR(history.low[0].depth->tube / history.high[0].depth->tube, 1.0, bracketed);
+  EXPECT_LT(history.low[1].depth->tube, history.value[1].depth->tube);
+  EXPECT_LT(history.value[1].depth->tube, history.high[1].depth->tube);
+  const Life life = time_to_limit(place, states);
+  EXPECT_NEAR(life.at_low.tube.time / life.value.tube.time, 2.0, bracketed);
+  EXPECT_NEAR(initial_wear(place, states)->age, volume(FlatBar{radius, length}, 0.1 * wall) / (2e-14 * 2e-3),
+              bracketed * year);
+}
+
 TEST(WornSupport, IsRefusedWhereItMakesNoSense) {
   const auto refused = [](const WornSupport& place, std::initializer_list<const char*> parts) {
     expect_refused([&] { check(place); }, parts);
@@ -171,6 +241,9 @@ TEST(WornSupport, IsRefusedWhereItMakesNoSense) {
   refused({bar, Archard{1e-14}, wall, Archard{0.0}, 0.4, 0.02}, {"a limit of 0.02 m is beyond"});
   refused({SharedScar{DrilledHole{radius, clearance, length, 0.01}, Form::reference}, Archard{1e-14}, wall},
           {"beyond the 8e-05 m", "exact form"});
+  refused({bar, Archard{1e-14}, wall, Archard{0.0}, 0.4, {}, -1e-4}, {"initial depth = -0.0001 m"});
+  refused({bar, Archard{1e-14}, wall, Archard{0.0}, 0.4, {}, 0.02},
+          {"an initial depth of 0.02 m is beyond the 0.009525 m"});
   refused({bar, Archard{-1.0}, wall}, {"archard: coefficient"});
   refused({bar, Archard{1.0}, wall, Archard{-1.0}}, {"archard: coefficient"});
   refused({SharedScar{FlatBar{0.0, 1.0}}, Archard{1.0}, wall}, {"flat bar"});
