@@ -42,12 +42,24 @@ void warn_of_depths(results::RunResults& out) {
                            100.0 * s.share_above);
       });
   warn(
-      out, [](const WearOfSupport& s) { return s.depth.first().value >= s.limit; },
+      out, [](const WearOfSupport& s) { return s.initial_depth >= s.limit; },
       [](const WearOfSupport& s) {
         return fmt::format(
             "the tube has lost its limit before: initial_wear is {:.3g} of the wall, limit {:.3g}; no "
             "life is left",
-            s.depth.first().value / s.wall, s.limit / s.wall);
+            s.initial_depth / s.wall, s.limit / s.wall);
+      });
+  warn(
+      out,
+      [](const WearOfSupport& s) {
+        return s.initial_depth > 0.0 && !s.support_depth.value.empty() &&
+               s.support_depth.value.front() >= s.support_limit;
+      },
+      [](const WearOfSupport& s) {
+        return fmt::format("the support would have lost its limit of {:.3g} mm before: {:.3g} mm, what the "
+                           "work rates wear of "
+                           "it while the tube comes to initial_wear",
+                           1e3 * s.support_limit, 1e3 * s.support_depth.value.front());
       });
   warn(
       out, [](const WearOfSupport& s) { return s.depth.last().value > s.wall; },
@@ -109,38 +121,34 @@ void note_corners(results::RunResults& out) {
       years_text(deepest->corner_years)));
 }
 
-double initial_depth(const WearOfSupport& support) {
-  const double depth = support.depth.first().value;
-  return std::isnan(depth) ? 0.0 : depth; // outside its law
-}
-
-/// Of tubes that are worn already, with the deepest of them.
+/// Of tubes that are worn already: in which time the work rates would have worn as much.
 void note_initial_wear(results::RunResults& out) {
   std::vector<std::string> names;
-  const WearOfSupport* deepest = nullptr;
+  std::vector<const WearOfSupport*> worn_so; // by that time
   for (const WearOfSupport& s : out.wear->supports)
-    if (initial_depth(s) > 0.0) {
+    if (s.initial_depth > 0.0) {
       names.push_back(s.name);
-      // of equally deep ones that of the fastest wear
-      if (const auto order =
-              [](const WearOfSupport& one) {
-                return std::pair(initial_depth(one),
-                                 one.initial_years > 0.0 ? -one.initial_years : -HUGE_VAL);
-              };
-          !deepest || order(s) > order(*deepest))
-        deepest = &s;
+      if (!std::isnan(s.initial_years))
+        worn_so.push_back(&s);
     }
-  if (!deepest)
+  if (names.empty())
     return;
-  const double depth = initial_depth(*deepest);
-  out.notes.push_back(fmt::format(
-      "wear of {} goes on from initial_wear, years count from there: \"{}\" begins with a depth of {:.3g} mm "
-      "({:.3g} % of "
-      "the wall), which {}",
-      core::list_names(names, most_worn_named), deepest->name, 1e3 * depth, 100.0 * depth / deepest->wall,
-      std::isnan(deepest->initial_years)
-          ? std::string("the work rates never would have worn")
-          : fmt::format("the work rates would have worn in {:.3g} years", deepest->initial_years)));
+  const auto [first, last] = std::minmax_element(worn_so.begin(), worn_so.end(),
+                                                 [](const WearOfSupport* one, const WearOfSupport* other) {
+                                                   return one->initial_years < other->initial_years;
+                                                 });
+  const auto at = [](const WearOfSupport& s) {
+    return fmt::format("in {:.3g} years at \"{}\"", s.initial_years, s.name);
+  };
+  std::string when = worn_so.empty() ? "" : at(**first);
+  if (worn_so.size() > 1)
+    when += ", " + at(**last);
+  if (const std::size_t never = names.size() - worn_so.size(); never > 0)
+    when += fmt::format("{}never at {} of {}", when.empty() ? "" : ", ", never, names.size());
+  out.notes.push_back(
+      fmt::format("wear of {} goes on from initial_wear, at the gaps of the study; years count from "
+                  "there; the work rates would have worn as much {}",
+                  core::list_names(names, most_worn_named), when));
 }
 
 bool combines_states(const study::Wear& entry) {

@@ -145,6 +145,7 @@ void set_histories(const wear::WornSupport& worn, const std::vector<double>& tim
   append(history.high, time.size(), share, &results::WearCurves::high, out);
   if (history.outside)
     out.outside = history.outside->text;
+  out.initial_depth = worn.initial_depth;
   if (const auto before = wear::initial_wear(worn, states); before && before->age > 0.0)
     out.initial_years = before->age / wear::year;
   const wear::Life life = wear::time_to_limit(worn, states);

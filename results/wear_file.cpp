@@ -30,13 +30,14 @@ struct SizeOf {
   const char* name;
   double WornScar::*value;
 };
-constexpr SizeOf scar_sizes[] = {{"initial_years", &WornScar::initial_years},
+constexpr SizeOf scar_sizes[] = {{"initial_depth", &WornScar::initial_depth},
+                                 {"initial_years", &WornScar::initial_years},
                                  {"scar_width", &WornScar::scar_width},
                                  {"scar_length", &WornScar::scar_length},
                                  {"scar_half_angle", &WornScar::scar_half_angle}};
 constexpr const char* units =
     "coefficient, support_coefficient: m2/N; radius, wall, length, clearance, limit, support_limit, "
-    "scar_width, "
+    "initial_depth, scar_width, "
     "scar_length, corner_depth: m; corner_years, initial_years: years; inclination, scar_half_angle: rad; "
     "work_rate (value, "
     "low, high): W; life_years, "

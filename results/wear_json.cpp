@@ -62,7 +62,7 @@ Json sectors(const WearOfSupport& s) {
 /// Figures of one scar, after the years asked for.
 Json scar(const WornScar& s) {
   return {{"outside_law", s.outside.empty() ? Json(nullptr) : Json(s.outside)},
-          {"initial_depth_m", number(s.depth.first().value)},
+          {"initial_depth_m", number(s.initial_depth)},
           {"initial_years", number(s.initial_years)},
           {"volume_m3", bounds(s.volume.last())},
           {"depth_m", bounds(s.depth.last())},

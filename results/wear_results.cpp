@@ -91,12 +91,15 @@ void combine_sides(WearOfSupport& support) {
   support.support_life = first_life(sides, &WornScar::support_life);
   double deepest = -1.0;
   for (const WearOfSide& side : sides) {
+    if (side.initial_depth > support.initial_depth) {
+      support.initial_depth = side.initial_depth;
+      support.initial_years = side.initial_years;
+    }
     if (!side.outside.empty())
       support.outside +=
           fmt::format("{}{}: {}", support.outside.empty() ? "" : "; ", text_of_side(side.name), side.outside);
     if (const double depth = side.depth.last().value; depth > deepest) {
       deepest = depth;
-      support.initial_years = side.initial_years;
       support.scar_width = side.scar_width;
       support.scar_length = side.scar_length;
       support.scar_half_angle = side.scar_half_angle;

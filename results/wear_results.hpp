@@ -26,10 +26,6 @@ struct Bounds {
 /// A figure against time, at the work rate and at the ends of its interval.
 struct WearCurves {
   std::vector<double> value, low, high;
-  /// At the first time; not numbers where there is none.
-  [[nodiscard]] Bounds first() const {
-    return value.empty() ? Bounds{} : Bounds{value.front(), low.front(), high.front()};
-  }
   /// At the last time; not numbers where there is none.
   [[nodiscard]] Bounds last() const {
     return value.empty() ? Bounds{} : Bounds{value.back(), low.back(), high.back()};
@@ -56,6 +52,7 @@ struct WornScar {
   std::string outside;               ///< why the law does not apply; empty: it does
   WearCurves volume, support_volume; ///< m3
   WearCurves depth, support_depth;   ///< m; not a number beyond the geometry
+  double initial_depth = 0.0;        ///< m, that the tube has lost where the years begin
   double initial_years =
       no_value; ///< a, that the work rates would have taken for the depth at the start; not a number: there is none, or they never would
   double scar_width = no_value, scar_length = no_value,

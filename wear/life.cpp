@@ -194,6 +194,8 @@ BodyLives time_to_limit(const WornSupport& place, std::span<const OperatingState
   const auto pair = pair_of(place, states);
   if (const auto* why = std::get_if<OutsideLaw>(&pair)) {
     const TimeToLimit outside{LifeEnd::outside_law, unknown, *why};
+    if (place.initial_depth >= place.limit * place.wall) // by any law
+      return {{LifeEnd::reached, 0.0}, place.support_limit ? std::optional(outside) : std::nullopt};
     return {outside, place.support_limit ? std::optional(outside) : std::nullopt};
   }
   const auto& bodies = std::get<Pair>(pair);

@@ -75,6 +75,7 @@ WearOfSupport support(const RunResults& results, std::size_t c) {
     s.life.years = {std::numeric_limits<double>::infinity(), 123.5, std::numeric_limits<double>::infinity()};
     s.support_life = {"reached", {77.0, 66.0, 88.0}};
     s.support_limit = 1e-3;
+    s.initial_depth = 1e-4;
     s.initial_years = 4.5;
     s.sector_depth.assign(36, 1e-5);
     s.sector_support_depth.assign(36, 2e-5);

@@ -221,11 +221,12 @@ TEST(WearInTheArchive, IsReadBackBitForBit) {
     EXPECT_EQ(a.node, b.node);
     EXPECT_EQ(a.law + a.source + a.geometry + a.form + a.outside,
               b.law + b.source + b.geometry + b.form + b.outside);
-    EXPECT_TRUE(
-        same({a.coefficient, a.support_coefficient, a.radius, a.wall, a.length, a.clearance, a.inclination,
-              a.limit, a.support_limit, a.scar_width, a.scar_length, a.scar_half_angle, a.initial_years},
-             {b.coefficient, b.support_coefficient, b.radius, b.wall, b.length, b.clearance, b.inclination,
-              b.limit, b.support_limit, b.scar_width, b.scar_length, b.scar_half_angle, b.initial_years}));
+    EXPECT_TRUE(same({a.coefficient, a.support_coefficient, a.radius, a.wall, a.length, a.clearance,
+                      a.inclination, a.limit, a.support_limit, a.scar_width, a.scar_length, a.scar_half_angle,
+                      a.initial_depth, a.initial_years},
+                     {b.coefficient, b.support_coefficient, b.radius, b.wall, b.length, b.clearance,
+                      b.inclination, b.limit, b.support_limit, b.scar_width, b.scar_length, b.scar_half_angle,
+                      b.initial_depth, b.initial_years}));
     EXPECT_TRUE(
         same({a.work_rate.value, a.work_rate.low, a.work_rate.high, a.life.years.value, a.life.years.low},
              {b.work_rate.value, b.work_rate.low, b.work_rate.high, b.life.years.value, b.life.years.low}));

@@ -176,8 +176,9 @@ TEST(InitialWear, IsOnTheCurveOfTheWorkRates) {
     const BodyLives lives = time_to_limit(worn, always(5e-3));
     EXPECT_EQ(lives.tube.end, LifeEnd::reached);
     EXPECT_NEAR((age + lives.tube.time) / from_new.tube.time, 1.0, bracketed);
-    if (lives.support)
+    if (lives.support) {
       EXPECT_NEAR((age + lives.support->time) / from_new.support->time, 1.0, bracketed);
+    }
     const auto history = depth_history(worn, always(5e-3), std::array{0.0, year, 3.0 * year});
     EXPECT_NEAR(history[0].depth->tube / (0.2 * wall), 1.0, bracketed);
     for (const DepthAt& at : history) {
@@ -213,6 +214,8 @@ TEST(InitialWear, AtTheLimitLeavesNoLife) {
     EXPECT_EQ(life.end, LifeEnd::reached) << depth;
     EXPECT_EQ(life.time, 0.0) << depth;
   }
+  place.tube = EdfMz{}; // outside its law too
+  EXPECT_EQ(time_to_limit(place, always(2e-3)).tube.time, 0.0);
 }
 
 TEST(InitialWear, IsThatOfEachEndOfTheInterval) {
