@@ -209,6 +209,8 @@ void DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
     b.tables.push_back(table_of(length * step));
     b.halves.push_back(table_of(0.5 * length * step));
   }
+  b.bow = table_of(step);
+  set_bow(b, step, b.bow.data());
   const kernels::Array one_step = table_of(step);
   const auto constant = [&](const VectorXd& input) {
     const kernels::Array none(static_cast<std::size_t>(width), 0.0), g = kernels::padded_copy(input);
@@ -245,6 +247,26 @@ void DiagonalFlow::set_table(const Block& b, double t, double* table) const {
     set(Table::r, t * (f[1] - f[2]));
     set(Table::r0, t * t * (f[2] - 2.0 * f[3] + f[4]));
     set(Table::r1, t * t * (f[3] - f[4]));
+  }
+}
+
+/// Of a table for steps of this length: by how much the mean exceeds that of the cubic, (y0 + y1)/2 + t (l y0 - l y1)/12.
+void DiagonalFlow::set_bow(const Block& b, double t, double* table) {
+  using Table = kernels::StateTable;
+  const auto pairs = static_cast<std::size_t>(b.count.pairs), width = static_cast<std::size_t>(b.width());
+  for (std::size_t i = 0; i < width; i = i + 1 == pairs ? 2 * pairs : i + 1) {
+    const Complex z = b.values[i] * t;
+    const std::array<Complex, 5> f = phi(z);
+    const Complex a0 = t * (f[1] - f[2]), a1 = t * f[2];
+    const auto set = [&](Table::Number number, Complex x) {
+      double* to = table + static_cast<std::size_t>(number) * width + i;
+      *to = x.real();
+      if (i < pairs)
+        to[pairs] = x.imag();
+    };
+    set(Table::e, f[1] - 0.5 * (1.0 + f[0]) - z / 12.0 * (1.0 - f[0]));
+    set(Table::a0, t * (f[2] - f[3]) - (0.5 - z / 12.0) * a0);
+    set(Table::a1, t * f[3] - (0.5 - z / 12.0) * a1);
   }
 }
 
@@ -332,6 +354,12 @@ void DiagonalFlow::middle(std::size_t place, const double* y0, const kernels::St
     kernels::move_states(b.count, b.halves[place].data(), y0 + b.first, {late + width, late, of.mean, none},
                          y + b.first, late + 2 * width);
   }
+}
+
+void DiagonalFlow::bow(const double* y0, const kernels::StateInputs& inputs, double* bow) {
+  for (const Block& b : blocks_)
+    kernels::move_states(b.count, b.bow.data(), y0 + b.first, of_block(inputs, b.first), bow + b.first,
+                         moved_.data());
 }
 
 void DiagonalFlow::inside(double t, const double* y0, const kernels::StateInputs& inputs, double* y,

@@ -63,6 +63,8 @@ public:
   void modes_of(const double* y, double* q, double* v);
   /// y in the middle of such a step. No allocation.
   void middle(std::size_t place, const double* y0, const kernels::StateInputs& inputs, double* y);
+  /// As ModalFlow::bow, of y over one step, so far as it shows in displacements. No allocation.
+  void bow(const double* y0, const kernels::StateInputs& inputs, double* bow);
   /// y, and l y where it is asked for, a time t after y0, the inputs being those at the start and then. No allocation.
   void inside(double t, const double* y0, const kernels::StateInputs& inputs, double* y,
               double* rate = nullptr);
@@ -86,11 +88,13 @@ private:
     Eigen::MatrixXd response;                   ///< 2m x m
     kernels::Array top, input_tiles, form;      ///< T, `input` and P in tiles
     std::vector<kernels::Array> tables, halves; ///< by lengths; of half the lengths
+    kernels::Array bow;                         ///< of one step, in place of e, a0, a1
     [[nodiscard]] int width() const { return count.width(); }
     [[nodiscard]] int rows() const { return kernels::padded(2 * static_cast<int>(modes.size())); }
   };
   void add_block(const System& system, const CoupledBlock& of, double step, const std::vector<int>& lengths);
   void set_table(const Block& b, double t, double* table) const;
+  static void set_bow(const Block& b, double t, double* table);
   [[nodiscard]] const double* modes_of_block(const Block& b, const double* y);
 
   std::vector<Block> blocks_;

@@ -10,6 +10,8 @@
 namespace fretwork::vibration {
 
 namespace {
+/// w h from which on the motion over a step shows beside a cubic: (w h)^4/720 of its second derivative.
+constexpr double least_bow = 0.1;
 /// Of a mode that another flow moves.
 constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
 
@@ -23,11 +25,18 @@ std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, do
   return {s.vf1 / det, -s.qf1 / det, -s.vf0 / det, s.qf0 / det};
 }
 
+/// Of q0, v0 and the forces at both ends: the mean of the motion less that of the cubic, (q0 + q1)/2 + h (v0 - v1)/12.
+std::array<double, 4> bow_by(const kernels::StepCoefficients& s, double h) {
+  return {s.mq - 0.5 * (1.0 + s.qq) + h / 12.0 * s.vq, s.mv - 0.5 * s.qv - h / 12.0 * (1.0 - s.vv),
+          s.mf0 - 0.5 * s.qf0 + h / 12.0 * s.vf0, s.mf1 - 0.5 * s.qf1 + h / 12.0 * s.vf1};
+}
+
 } // namespace
 
 ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<int>& lengths)
     : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step, LoadSum::Corners::used),
-      lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths) {
+      lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths),
+      bow_(kernels::padded(static_cast<int>(system_.size()))) {
   std::vector<CoupledBlock> blocks = coupled_blocks(system_);
   apart_.assign(static_cast<std::size_t>(system_.size()), 1);
   if (fed()) {
@@ -58,6 +67,11 @@ ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<
     const kernels::StepCoefficients s = step_coefficients(lone_k_(j), lone_c_(j), h_);
     per_force_[static_cast<std::size_t>(j)] = s.qf0 + s.qf1;
     rate_per_force_[static_cast<std::size_t>(j)] = s.vf0 + s.vf1;
+    if (apart_[static_cast<std::size_t>(j)] && std::sqrt(lone_k_(j)) * h_ > least_bow) {
+      const std::array<double, 4> by = bow_by(s, h_);
+      bow_.set(j, {by[0], by[1], by[2], by[3]});
+      bows_ = true;
+    }
   }
 }
 
@@ -118,6 +132,12 @@ void ModalFlow::middle(int length, const State& from, const kernels::Array& load
   for (Eigen::Index j = 0; j < system_.size(); ++j)
     if (coupled_.couples(j))
       q[static_cast<std::size_t>(j)] = moved_[static_cast<std::size_t>(j)];
+}
+
+void ModalFlow::bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                    const kernels::Array& force, kernels::Array& bow) const {
+  kernels::middle(padded(), bow_, from.q.data(), from.v.data(), load0.data(), load1.data(), force.data(),
+                  none_.data(), bow.data());
 }
 
 void ModalFlow::load_about(double time, double length, kernels::Array& load) {

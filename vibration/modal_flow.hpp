@@ -52,6 +52,12 @@ public:
   /// Displacements in the middle of the step moved last (force null: none). No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const ModalForce* force, kernels::Array& q);
+  /// By how much the mean of each displacement over one step under a constant force exceeds that of the cubic through both its ends: 0 of modes that are
+  /// coupled, and of those that are slow in the step. No allocation.   @param bow  padded
+  void bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+           const kernels::Array& force, kernels::Array& bow) const;
+  /// Whether any mode has one.
+  [[nodiscard]] bool bows() const { return bows_; }
   [[nodiscard]] double energy(const State& state) const;
   /// Numbers of modes, padded.
   [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }
@@ -93,6 +99,8 @@ private:
   std::vector<kernels::FlowTable> own_;        ///< of all modes by themselves; with forces of motion
   std::vector<kernels::MiddleTable> inverses_; ///< likewise: of kernels::own_works
   std::vector<kernels::MiddleTable> middles_;
+  kernels::MiddleTable bow_; ///< of one step
+  bool bows_ = false;
   kernels::Array per_force_,
       rate_per_force_; ///< m/N, m/(N s) of the modes that are not coupled: by `response`
   kernels::Array k_, none_, a_, b_, moved_, rate_, states_;

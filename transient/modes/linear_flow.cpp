@@ -177,6 +177,13 @@ vibration::ModalFlow::Sums LinearFlow::push(const State& from, const kernels::Ar
   return sums;
 }
 
+void LinearFlow::bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
+                     const kernels::Array& force, kernels::Array& bow) {
+  uncoupled_.bow(from, load0, load1, force, bow);
+  if (has_blocks())
+    blocks_.bow(part(from.q), inputs_of(load0, load1, force, none_), part(bow));
+}
+
 void LinearFlow::add_works(int length, const State& from, const kernels::Array& load0,
                            const kernels::Array& load1, const vibration::ModalForce* force,
                            vibration::ModalFlow::Sums& sums, BlockWorks& works) {

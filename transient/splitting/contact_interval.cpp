@@ -202,10 +202,10 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
                                                      int index) const {
   Motion a;
   const double dt = table.length, start = index * dt;
-  const Components of_path = m.path.a + (start + 0.5 * dt) * m.path.j;
+  const Components of_path = m.path.acceleration(start + 0.5 * dt, table.share);
   const Components expected = of_path + (m.others_over(dt) + m.by_force - m.by_held);
   a.velocity = m.path.velocity(start) + m.rate;
-  a.jerk = m.path.j + (1.0 / dt) * m.others_growth_over(dt);
+  a.jerk = m.path.jerk(start + 0.5 * dt) + (1.0 / dt) * m.others_growth_over(dt);
   a.acceleration = expected - m.by_force;
   const Components growth = dt * a.jerk + m.by_growth;
   const Components mean = m.path.displacement(start) + m.response +
@@ -225,9 +225,25 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   a.penetration = p.penetration;
   a.rate = p.rate;
   a.acceleration_inwards = p.acceleration + normal(a.axes, m.force) * a.mobility;
+  a.per_interval = 1.0 / dt;
   a.bend = dt * dt * dt / 12.0 *
            (normal(a.axes, a.jerk) + p.jerk_by_turning + a.turn.omega * tangent(a.axes, a.acceleration));
   return a;
+}
+
+/// s: when a contact closes that is to touch about `guess`, by the parabola without bend; dt: not in the interval.
+double ContactIntervals::touch_after(const Motion& a, double guess, double dt) {
+  constexpr int steps = 2; // of Newton's method: the bend is small beside the way to the touch
+  double time = std::min(guess, dt);
+  for (int i = 0; i < steps; ++i) {
+    const double rate = a.rate_after(time);
+    if (!(rate > 0.0))
+      return dt;
+    time -= a.after(time) / rate;
+    if (!(time < dt))
+      return dt;
+  }
+  return std::max(time, 0.0);
 }
 
 /// s: from when on the contact has a force; dt and more: not in the interval.
@@ -235,7 +251,7 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
   if (a.penetration < 0.0) {
     const double square = a.rate * a.rate - 2.0 * a.acceleration_inwards * a.penetration;
     const double speed = square > 0.0 ? a.rate + std::sqrt(square) : 0.0;
-    return speed > 0.0 ? std::min(dt, -2.0 * a.penetration / speed) : dt;
+    return speed > 0.0 ? touch_after(a, -2.0 * a.penetration / speed, dt) : dt;
   }
   if (closed)
     return 0.0;
@@ -260,16 +276,15 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
     return out;
   }
   const double start = std::max(0.0, closes > 0.0 ? a.after(closes) : a.penetration);
-  const double rate = a.rate + closes * a.acceleration_inwards;
+  const double rate = a.rate_after(closes);
   const auto over = [&](double length) {
     const bool whole = length == dt;
     const double growing =
         whole ? table.growing
               : contact::growing_damping(normal_.damping, normal_.damping * table.mobility * length);
-    const double end =
-        start + length * (rate + 0.5 * length * a.acceleration_inwards) + (whole ? a.bend : 0.0);
-    return contact::normal_over_interval(normal_, length, a.mobility, growing,
-                                         {start, end, rate, a.acceleration_inwards});
+    const double mean = a.acceleration_over(closes, length);
+    const double end = start + length * (rate + 0.5 * length * mean) + a.bend_over(length);
+    return contact::normal_over_interval(normal_, length, a.mobility, growing, {start, end, rate, mean});
   };
   double length = dt - closes;
   contact::NormalInterval n = over(length);
@@ -289,7 +304,7 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   out.to = closes + (out.opens ? n.to : 1.0) * length;
   out.course = n.course;
   out.approach = rate;
-  const double last_rate = rate + length * (a.acceleration_inwards - a.mobility * n.force);
+  const double last_rate = rate + length * (a.acceleration_over(closes, length) - a.mobility * n.force);
   if (n.force > 0.0)
     out.departure = -last_rate;
   out.damper_work = n.damper_work;
@@ -297,7 +312,8 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
     out.damper_work += released(a.penetration, start);
   if (out.opens) {
     const double left = dt - closes - length;
-    const double end = n.end + left * (last_rate + 0.5 * left * a.acceleration_inwards);
+    const double end =
+        n.end + left * (last_rate + 0.5 * left * a.acceleration_over(dt - left, left)) + a.bend_over(left);
     out.damper_work += released(n.end, end);
   }
   return out;

@@ -16,13 +16,29 @@
 
 namespace fretwork::transient {
 
-/// Motion over a step: u + v t + a t^2/2 + j t^3/6.
+/// Motion over a step: u + v t + a t^2/2 + j t^3/6 + b t^2 (1 - x)^2/2,   x = t/h. The last part, with displacement and velocity 0 at both ends, has the mean
+/// b h^2/60.
 struct FreePath {
   Components u, v, a, j;
+  Components b = {};
+  double per_step = 0.0; ///< 1/h
   [[nodiscard]] Components displacement(double time) const {
-    return u + time * (v + 0.5 * time * (a + (time / 3.0) * j));
+    const double left = 1.0 - per_step * time;
+    return u + time * (v + 0.5 * time * (a + (time / 3.0) * j + (left * left) * b));
   }
-  [[nodiscard]] Components velocity(double time) const { return v + time * (a + 0.5 * time * j); }
+  [[nodiscard]] Components velocity(double time) const {
+    const double x = per_step * time;
+    return v + time * (a + 0.5 * time * j + ((1.0 - x) * (1.0 - 2.0 * x)) * b);
+  }
+  /// Mean over an interval about the middle at `time`, a share of the step long.
+  [[nodiscard]] Components acceleration(double time, double share) const {
+    const double x = per_step * time;
+    return a + time * j + (1.0 - 6.0 * x * (1.0 - x) + 0.5 * share * share) * b;
+  }
+  /// Its slope there, which gives the interval its displacement.
+  [[nodiscard]] Components jerk(double time) const {
+    return j + (6.0 * per_step * (2.0 * per_step * time - 1.0)) * b;
+  }
 };
 
 /// What is remembered of a contact from step to step.
@@ -164,6 +180,7 @@ private:
   /// Share of the spring of a contact that has been open for so long, s.
   [[nodiscard]] double spring_left(double time) const;
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;
+  [[nodiscard]] static double touch_after(const Motion& a, double guess, double dt);
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
   void record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,

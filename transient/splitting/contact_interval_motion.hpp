@@ -16,14 +16,29 @@ struct ContactIntervals::Motion {
   Components jerk;           ///< m/s3
   Components by_normal;      ///< 1/kg, W n
   double mobility = 0.0;     ///< 1/kg, n W n
-  double penetration = 0.0;  ///< m, at the start
-  double rate = 0.0;         ///< m/s
-  double acceleration_inwards =
-      0.0;           ///< m/s2, mean of the second derivative of the penetration, under the friction expected
-  double bend = 0.0; ///< m: by its jerk at the end
+  /// The penetration is p + r t + a t^2/2 + bend x^2 (3 - 2 x), x = t/dt.
+  double penetration = 0.0;          ///< p, m
+  double rate = 0.0;                 ///< r, m/s
+  double acceleration_inwards = 0.0; ///< a, m/s2: mean of its second derivative, under the friction expected
+  double bend = 0.0;                 ///< m: by its jerk at the end
+  double per_interval = 0.0;         ///< 1/dt
   contact::AxesTurn turn;
   [[nodiscard]] double after(double time) const {
-    return penetration + time * (rate + 0.5 * time * acceleration_inwards);
+    const double x = per_interval * time;
+    return penetration + time * (rate + 0.5 * time * acceleration_inwards) + bend * x * x * (3.0 - 2.0 * x);
+  }
+  [[nodiscard]] double rate_after(double time) const {
+    const double x = per_interval * time;
+    return rate + time * acceleration_inwards + 6.0 * per_interval * bend * x * (1.0 - x);
+  }
+  /// Of a part of the interval from a time on, as long: the mean acceleration, and what the jerk bends at its end.
+  [[nodiscard]] double acceleration_over(double from, double length) const {
+    return acceleration_inwards +
+           6.0 * per_interval * per_interval * bend * (1.0 - per_interval * (2.0 * from + length));
+  }
+  [[nodiscard]] double bend_over(double length) const {
+    const double share = per_interval * length;
+    return share * share * share * bend;
   }
 };
 

@@ -79,11 +79,16 @@ void CoupledContacts::preload(int c, const contact::Location& at, double normal_
   forces_[c].held = {normal_force * at.ny, normal_force * at.nz, 0.0};
 }
 
-FreePath CoupledContacts::path_of(int c, const ContactMotion& start, const ContactMotion& end) const {
+FreePath CoupledContacts::path_of(int c, const StepMotion& motion) const {
   const double per = 1.0 / h_;
-  const Components u0 = of_lanes(start.u, c), v0 = of_lanes(start.w, c), v1 = of_lanes(end.w, c),
-                   mean = per * (of_lanes(end.u, c) - u0);
-  return {u0, v0, per * (6.0 * mean - 4.0 * v0 - 2.0 * v1), (6.0 * per * per) * (v0 + v1 - 2.0 * mean)};
+  const Components u0 = of_lanes(motion.start.u, c), v0 = of_lanes(motion.start.w, c),
+                   v1 = of_lanes(motion.end.w, c), mean = per * (of_lanes(motion.end.u, c) - u0);
+  return {u0,
+          v0,
+          per * (6.0 * mean - 4.0 * v0 - 2.0 * v1),
+          (6.0 * per * per) * (v0 + v1 - 2.0 * mean),
+          motion.bow ? (60.0 * per * per) * of_lanes(*motion.bow, c) : Components(),
+          per};
 }
 
 const IntervalTable& CoupledContacts::table_of(int c, int count) {
@@ -93,26 +98,26 @@ const IntervalTable& CoupledContacts::table_of(int c, int count) {
   return of;
 }
 
-void CoupledContacts::make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-                           ContactTrial& trial, ContactLosses& losses) {
+void CoupledContacts::make(const StepMotion& motion, const std::vector<int>& near, ContactTrial& trial,
+                           ContactLosses& losses) {
   pushed_in_.clear();
-  find_forces(start, end, near, trial, losses);
+  find_forces(motion, near, trial, losses);
 }
 
-void CoupledContacts::make_again(const ContactMotion& start, const ContactMotion& end,
-                                 const std::vector<int>& near, const std::vector<int>& pushed_in,
-                                 ContactTrial& trial, ContactLosses& losses) {
+void CoupledContacts::make_again(const StepMotion& motion, const std::vector<int>& near,
+                                 const std::vector<int>& pushed_in, ContactTrial& trial,
+                                 ContactLosses& losses) {
   for (const Before& before : before_step_) {
     pasts_[before.number] = before.past;
     forces_[before.number].held = before.held;
   }
   pushed_in_.insert(pushed_in_.end(), pushed_in.begin(), pushed_in.end());
   losses = {};
-  find_forces(start, end, near, trial, losses);
+  find_forces(motion, near, trial, losses);
 }
 
-void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotion& end,
-                                  const std::vector<int>& near, ContactTrial& trial, ContactLosses& losses) {
+void CoupledContacts::find_forces(const StepMotion& motion, const std::vector<int>& near, ContactTrial& trial,
+                                  ContactLosses& losses) {
   trial.clear();
   before_step_.clear();
   converged_ = true;
@@ -122,7 +127,7 @@ void CoupledContacts::find_forces(const ContactMotion& start, const ContactMotio
     trial.states[c] = {}; // also of contacts that were near and open
     Force& force = forces_[c];
     force.mean = force.slope = {};
-    const FreePath path = path_of(c, start, end);
+    const FreePath path = path_of(c, motion);
     const int count = laws_[c].least_count(parts_[c], pasts_[c], path);
     if (!laws_[c].may_close(pasts_[c], path, count) &&
         std::find(pushed_in_.begin(), pushed_in_.end(), c) == pushed_in_.end())

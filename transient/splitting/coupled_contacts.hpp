@@ -4,8 +4,8 @@
 /// interval one after the other finds its forces from those of the others as they are known or expected, and again where what the others have done since
 /// would make it diverge. Contact i moves by
 ///     u_i(t) = path_i(t) + r_i(t),   r_i'' = sum over k of W_ik d_k - V_ik (integral of the impulses of d_k),   d_k = f_k - held_k
-/// path: of the modes, the cubic through displacements and velocities at both ends of the step as they are under the forces `held` of the contacts
-/// that were closed (constant over the step); r: what the change of forces adds, by the impulse response of step_response.hpp, whose displacement and velocity
+/// path: of the modes, the quartic with their mean through displacements and velocities at both ends of the step as they are under the forces `held` of
+/// the contacts that were closed (constant over the step); r: what the change of forces adds, by the impulse response of step_response.hpp, whose displacement and velocity
 /// after a step under constant forces are exact. Within an interval V acts in the mean, over(dt). What rests stays at rest, whatever h: f = held then, and the path is constant.
 ///
 /// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group, whose
@@ -17,6 +17,13 @@
 #include "transient/splitting/contact_interval.hpp"
 
 namespace fretwork::transient {
+
+/// Of all contacts over a step, under the forces held.
+struct StepMotion {
+  const ContactMotion &start, &end;
+  const kernels::Array* bow =
+      nullptr; ///< m, lanes: by how much the mean exceeds that of the cubic through both ends; null: not at all
+};
 
 class CoupledContacts {
 public:
@@ -33,16 +40,15 @@ public:
   /// Contact c has borne this force before the run.
   void preload(int c, const contact::Location& at, double normal_force);
   /// Forces of a step. No allocation.
-  /// @param start  motion at its start   @param end  at its end, under the forces held   @param near  contacts that may be closed in it, those
-  ///   with a force held among them, by increasing number   @param trial  overwritten
-  void make(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-            ContactTrial& trial, ContactLosses& losses);
+  /// @param near  contacts that may be closed in it, those with a force held among them, by increasing number   @param trial  overwritten
+  void make(const StepMotion& motion, const std::vector<int>& near, ContactTrial& trial,
+            ContactLosses& losses);
   /// Whether contact c moved in the step; else it was taken to stay open.
   [[nodiscard]] bool moved(int c) const { return moves_[c] != 0; }
   /// The forces of that step once more, with contacts that stayed open in it and that the forces of the others have taken into their obstacles.
-  /// No allocation.   @param pushed_in  these, which did not move   @param start, end, near  as of `make`, with these
-  void make_again(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-                  const std::vector<int>& pushed_in, ContactTrial& trial, ContactLosses& losses);
+  /// No allocation.   @param pushed_in  these, which did not move   @param motion, near  as of `make`, with these
+  void make_again(const StepMotion& motion, const std::vector<int>& near, const std::vector<int>& pushed_in,
+                  ContactTrial& trial, ContactLosses& losses);
   /// After `make`, when the modes have taken the forces: the contacts stand here. The springs of those that stayed open relax.
   void finish_step(const ContactMotion& end, ContactLosses& losses);
   /// Steps in which all contacts stay open. No allocation.
@@ -76,8 +82,8 @@ private:
     ContactPast past;
     Components held;
   };
-  void find_forces(const ContactMotion& start, const ContactMotion& end, const std::vector<int>& near,
-                   ContactTrial& trial, ContactLosses& losses);
+  void find_forces(const StepMotion& motion, const std::vector<int>& near, ContactTrial& trial,
+                   ContactLosses& losses);
   void clear_moving();
   void finish_tangential_springs(int steps, ContactLosses& losses);
   [[nodiscard]] int group_of(int block);
@@ -86,7 +92,7 @@ private:
     const auto width = static_cast<std::size_t>(contacts_.width), lane = static_cast<std::size_t>(c);
     return {lanes[lane], lanes[width + lane], contacts_.components == 3 ? lanes[2 * width + lane] : 0.0};
   }
-  [[nodiscard]] FreePath path_of(int c, const ContactMotion& start, const ContactMotion& end) const;
+  [[nodiscard]] FreePath path_of(int c, const StepMotion& motion) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
   void move(int first);
   void find_forces_together(int first, int index, int count);

@@ -17,8 +17,6 @@ constexpr double golden = 0.6180339887498949;
 /// Of the accuracy: an error that takes finer intervals (of order 2 it is half of the accuracy), and by how many standard errors it is to stand out. Six figures are looked at after each
 /// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 10 replays at least.
 constexpr double tolerated = 0.75, significance = 3.0;
-/// Of the accuracy: the energy gained that takes finer intervals, over what has been dissipated and is stored.
-constexpr double tolerated_gain = 0.25;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
@@ -138,9 +136,7 @@ private:
       }
     recent_sum_.add(run, replayed, 1.0);
     if (!refined && is_coarse(recent_sum_))
-      refined = refine_all([](int) { return true; });
-    if (gains_energy(running_->energy()))
-      refined = refine_all([](int parts) { return parts == 1; }) || refined;
+      refined = refine_all();
     if (refined)
       recent_sum_ = {};
     last_ = end;
@@ -160,18 +156,11 @@ private:
     return false;
   }
 
-  /// Energy that nothing brings: beside modes of little damping contacts gain it in each impact where they move in one interval a step, 10 to 30
-  /// times as much as in two. Replays do not see it: it is little of an impact, and much of what the modes dissipate between two.
-  [[nodiscard]] bool gains_energy(const Energy& e) const {
-    const double gain = -e.residual();
-    return gain > 0.0 && gain > tolerated_gain * options_.accuracy * (e.dissipated() + e.stored);
-  }
-
-  /// All contacts whose intervals a step `concerns` says so of. Returns whether any had finer ones.
-  template <class Concerns> bool refine_all(const Concerns& concerns) {
+  /// All contacts. Returns whether any had finer intervals.
+  bool refine_all() {
     bool refined = false;
     for (std::size_t c = 0; c < whole_.size(); ++c)
-      refined = (concerns(parts_[c]) && refine(c)) || refined;
+      refined = refine(c) || refined;
     return refined;
   }
 

@@ -7,8 +7,7 @@
 ///     error = 2 d/s +- 2 (sum of d^2)^1/2/s
 /// the error that the step makes in that time (of impacts, which are counted, with one more in the sum of d^2); statistics of long runs may keep less of it, for a contact that slips too far sticks the longer.
 /// 2: of errors of order 1 half the interval takes away a half; of higher orders more, and the error told is too large. Contacts whose error is
-/// significant and above three quarters of the accuracy are moved in twice as many intervals from then on. All that move in one are moved in two where the
-/// run has gained more energy than a quarter of the accuracy of what it has dissipated and stores.
+/// significant and above three quarters of the accuracy are moved in twice as many intervals from then on.
 #pragma once
 #include "transient/splitting/splitting.hpp"
 
@@ -21,8 +20,6 @@ public:
   /// other masses; energies then are not those of the record. No allocation.
   /// Returns the time from which on its records are to come, s.
   virtual double continue_from(const Replayable& running) = 0;
-  /// After the last record, in all its terms (of modes in blocks too). No allocation.
-  [[nodiscard]] virtual Energy energy() = 0;
   /// From now on a contact moves in so many intervals a step, >= 1. No allocation.
   virtual void divide(int contact, int parts) = 0;
 };

@@ -8,7 +8,7 @@ namespace {
 
 /// w h of modes that hold back a part of a force within the step. Slower ones hold back less than 3 % of it; faster ones are followed by no step, and from pi on
 /// would turn the velocity that it gives.
-constexpr double least_held_back = 0.6, most_held_back = 3.0;
+constexpr double least_held_back = 0.1, most_held_back = 3.0;
 
 /// Component x_loc y_loc z_loc of y z x.
 Eigen::Index local_of(int component) { return (component + 1) % 3; }

@@ -4,6 +4,7 @@
 #include "post/power_balance.hpp"
 #include "scenes.hpp"
 #include "signals/sampled_forces.hpp"
+#include "transient/contacts/contact_motion.hpp"
 #include "transient/modes/linear_flow.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -199,5 +200,45 @@ TEST(LinearFlow, AMotionThatIsKeptUpHasItsWorksToo) {
 }
 
 } // namespace
+
+// By how much the mean over a step exceeds that of the cubic through both its ends: of modes alone, and of those that forces of motion couple.
+TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
+  constexpr int parts = 2000;
+  Scene scene = rattling_tube(1.0);
+  scene.loads.clear();
+  for (const bool coupled : {false, true}) {
+    scene.system.motion = coupled ? law() : core::MotionForces{};
+    const double step = 1.5 / std::sqrt(scene.system.stiffness.maxCoeff());
+    LinearFlow flow(scene, step, {1});
+    ASSERT_TRUE(flow.bows());
+    const Eigen::VectorXd q0 = 1e-3 * Eigen::VectorXd::LinSpaced(modes, 1.0, -0.5),
+                          v0 = Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7);
+    const LinearFlow::State from = flow.start(q0, v0);
+    const kernels::Array none(static_cast<std::size_t>(flow.force_numbers()), 0.0);
+    kernels::Array bow(static_cast<std::size_t>(flow.coordinates()), 0.0);
+    flow.bow(from, none, none, none, bow);
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(modes), q(modes), v(modes), q1(modes), v1(modes);
+    for (int k = 0; k < parts; ++k) {
+      flow.inside((k + 0.5) / parts * step, step, from, none, none, nullptr, q.data(), v.data());
+      mean += q / parts;
+    }
+    flow.inside(step, step, from, none, none, nullptr, q1.data(), v1.data());
+    const Eigen::VectorXd exact = mean - 0.5 * (q0 + q1) - step / 12.0 * (v0 - v1);
+    std::vector<ContactPoint> rows;
+    for (Eigen::Index i = 0; i < modes; ++i) {
+      ContactPoint point = scene.contacts[0];
+      point.modes.clear();
+      point.b = Eigen::MatrixXd::Zero(3, modes);
+      point.b(1, i) = 1.0;
+      rows.push_back(point);
+    }
+    const PackedContacts contacts(flow.outputs(rows), flow.coordinates(), coupled);
+    ContactMotion motion(contacts);
+    motion.gather(bow.data(), bow.data());
+    for (Eigen::Index i = 0; i < modes; ++i)
+      EXPECT_NEAR(motion.u[static_cast<std::size_t>(i)], exact(i), 1e-4 * exact.cwiseAbs().maxCoeff())
+          << coupled << i;
+  }
+}
 
 } // namespace linear_flow_test

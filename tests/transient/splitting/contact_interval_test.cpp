@@ -48,6 +48,27 @@ ContactPast closed(contact::ContactAxes axes) {
 
 } // namespace
 
+// Displacement and velocity at the end of an interval follow from its mean acceleration and jerk, exactly; the last part of the path has its mean.
+TEST(FreePath, HasTheAccelerationsOfItsIntervals) {
+  constexpr double h = 2e-3;
+  const FreePath path{{1.0, 0.0, 0.0},  {-300.0, 0.0, 0.0}, {2e5, 0.0, 0.0},
+                      {-1e8, 0.0, 0.0}, {7e5, 0.0, 0.0},    1.0 / h};
+  for (const int count : {1, 3}) {
+    const double dt = h / count;
+    for (int index = 0; index < count; ++index) {
+      const double start = index * dt, middle = start + 0.5 * dt;
+      const double a = path.acceleration(middle, 1.0 / count).y(), j = path.jerk(middle).y();
+      const double u = path.displacement(start).y(), v = path.velocity(start).y();
+      EXPECT_NEAR(path.velocity(start + dt).y(), v + dt * a, 1e-9);
+      EXPECT_NEAR(path.displacement(start + dt).y(), u + dt * v + dt * dt * (0.5 * a - dt / 12.0 * j), 1e-12);
+    }
+  }
+  double mean = 0.0;
+  for (int k = 0; k < 1000; ++k)
+    mean += FreePath{{}, {}, {}, {}, {7e5, 0.0, 0.0}, 1.0 / h}.displacement((k + 0.5) * h / 1000).y() / 1000;
+  EXPECT_NEAR(mean, 7e5 * h * h / 60.0, 1e-6);
+}
+
 TEST(ContactIntervals, LeaveWhatRestsAtRest) {
   constexpr double stiffness = 1e6, penetration = 1e-5, w = 20.0; // w_c h = 0.45
   const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};

@@ -231,4 +231,66 @@ TEST(SplittingLimits, OfTablesGiveForces) {
   expect_driven(table, {3e-2, 4.2e-2, 1e-3, 1e-3});
 }
 
+namespace {
+
+/// One mode of `own` times w_c, undamped, and a contact of w_c = frequency at its node.
+Scene oscillator(double frequency, double own, double gap, double preload, double duration) {
+  Scene scene;
+  scene.system.stiffness = Eigen::VectorXd::Constant(1, own * own * frequency * frequency);
+  scene.system.damping = Eigen::VectorXd::Zero(1);
+  scene.contacts = {{"stop",
+                     {Stop{gap, PlaneAxis::y}, {frequency * frequency}, {}},
+                     Vec3(0.0, preload, 0.0),
+                     Eigen::MatrixXd::Zero(3, 1)}};
+  scene.contacts[0].b(1, 0) = 1.0;
+  scene.q0 = Eigen::VectorXd::Zero(1);
+  scene.v0 = Eigen::VectorXd::Ones(1);
+  scene.duration = duration;
+  return scene;
+}
+
+} // namespace
+
+// A contact that stays closed vibrates on, without damping: what the step takes of it, as a ratio of damping.
+TEST(SplittingLimits, OfTheContactFrequencyDampsClosedContactsLittle) {
+  constexpr double periods = 30.0;
+  for (const auto& [own, most] : {std::pair(0.1, 4e-5), {0.3, 3e-4}, {0.7, 2e-3}}) {
+    const double w = contact * std::hypot(1.0, own), amplitude = 1.0 / w;
+    // rest at the equilibrium of both springs, deep enough that it never opens
+    const double preload = 2.0 * amplitude * (1.0 + own * own) / (own * own),
+                 rests = -preload / (1.0 + own * own);
+    Scene scene = oscillator(contact, own, 0.0, preload, periods * 2.0 * std::numbers::pi / w);
+    scene.q0(0) = rests;
+    StepChoice choice = choose_step(scene, splitting(step));
+    choice.replay = 0.0;
+    const History run = simulate_with(scene, choice, step);
+    const auto size = [&](Eigen::Index k) { return std::hypot(run.v(0, k), w * (run.q(0, k) - rests)); };
+    const double left = size(run.q.cols() - 1);
+    EXPECT_GT(left, 0.0) << own;
+    EXPECT_LT(-std::log(left) / (2.0 * std::numbers::pi * periods), most) << own;
+    EXPECT_LT(left, 1.0 + 1e-3) << own;
+  }
+}
+
+// The penetration bends as the mode turns the node back, from the touch on: an impact in one interval a step neither gains nor loses energy by it.
+TEST(SplittingLimits, OfTheHighestModeKeepsTheEnergyOfImpactsInOneInterval) {
+  constexpr int phases_of_touch = 24;
+  for (const auto& [own, most] : {std::pair(0.5, 4e-4), {1.0, 8e-4}, {2.0, 5e-3}}) {
+    double sum = 0.0;
+    for (int i = 0; i < phases_of_touch; ++i) {
+      const double frequency = 0.6 / step, before = (3.5 + static_cast<double>(i) / phases_of_touch) * step;
+      const double w = own * frequency;
+      Scene scene = oscillator(frequency, own, 1e-9, 0.0, 12.0 * step);
+      scene.q0(0) = -std::sin(w * before) / w;
+      scene.v0(0) = std::cos(w * before);
+      StepChoice choice = choose_step(scene, splitting(step));
+      choice.replay = 0.0;
+      choice.macro_steps = 1;
+      EXPECT_EQ(choice.parts, 1);
+      sum -= simulate_with(scene, choice, scene.duration).report.energy.residual() / 0.5 / phases_of_touch;
+    }
+    EXPECT_LT(std::abs(sum), most) << own;
+  }
+}
+
 } // namespace splitting_limits_test

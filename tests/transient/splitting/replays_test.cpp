@@ -130,29 +130,6 @@ TEST(Replayable, OfHalfTheStepStaysBesideIt) {
   EXPECT_NEAR(of_finer / impulse, 1.0, agreement);
 }
 
-// An oscillator of little damping gains in each impact, in one interval a step, up to 1 % of its energy: a third of what its mode dissipates.
-TEST(Replays, RefineContactsThatGainEnergy) {
-  constexpr double mass = 1.0, stiffness = 1e6, ratio = 0.003, duration = 40.0;
-  Scene s = mass_point(mass, Vec3::Constant(stiffness), duration);
-  s.system.damping = 2.0 * ratio * s.system.stiffness.cwiseSqrt();
-  s.contacts = {contact_of(mass, {contact::Stop{1e-3, contact::PlaneAxis::y}, {4.0 * stiffness}, {}})};
-  s.loads = {force_on(mass, {0.0, 1.0, 0.0}, Random{175.0, 16.0, 229.0, 1})};
-  StepChoice choice = choice_of(s, 1, 0.01, 0.87 / 2000.0);
-  const auto gain = [&] { // of what is dissipated; and the intervals of the contact
-    transient::Run run(s, choice, {}, nullptr, {});
-    run.advance(std::numeric_limits<std::int64_t>::max());
-    const Energy e = run.finish().energy;
-    const auto errors = run.step_errors();
-    return std::pair{-e.residual() / e.modal_damping, errors.empty() ? choice.parts : errors[0].parts};
-  };
-  ASSERT_GT(choice.replay, 0.0);
-  const auto [refined, intervals] = gain();
-  EXPECT_EQ(intervals, 2);
-  EXPECT_LT(std::abs(refined), 0.005);
-  choice.replay = 0.0;
-  EXPECT_GT(gain().first, 0.05);
-}
-
 TEST(Replays, ChangeNothingWhereTheAccuracyIsMet) {
   const Scene scene = mostly_sticking(60.0);
   StepChoice choice = choice_of(scene, 2, 1e3);
@@ -231,8 +208,8 @@ namespace {
 /// Its one contact has the same forces in all steps.
 class Unchanging final : public Replayable {
 public:
-  Unchanging(double step, const ContactState& state, int* parts, const Energy& energy = {})
-      : step_(step), state_(state), parts_(parts), energy_(energy) {}
+  Unchanging(double step, const ContactState& state, int* parts)
+      : step_(step), state_(state), parts_(parts) {}
   const Record& advance() override {
     time_ += step_;
     record_.time = time_ - 0.5 * step_;
@@ -245,7 +222,6 @@ public:
   double continue_from(const Replayable& running) override {
     return time_ = dynamic_cast<const Unchanging&>(running).time_;
   }
-  Energy energy() override { return energy_; }
   void divide(int, int parts) override { *parts_ = parts; }
   [[nodiscard]] double next_time() const override { return time_ + step_; }
   void state_at(double, double*, double*) override {}
@@ -257,13 +233,12 @@ private:
   double step_, time_ = 0.0;
   ContactState state_;
   int* parts_;
-  Energy energy_;
   const int number_ = 0;
   Record record_;
 };
 
 /// Intervals a step of a run whose steps, by their size, are off by these shares of what the replays have.
-int refined_to(double of_square, double of_impulse, const Energy& energy = {}) {
+int refined_to(double of_square, double of_impulse) {
   int parts = 1;
   ContactState replayed;
   replayed.normal_force = replayed.normal_square = replayed.closed = 1.0;
@@ -271,7 +246,7 @@ int refined_to(double of_square, double of_impulse, const Energy& energy = {}) {
   run.normal_square += of_square;
   run.normal_force += of_impulse;
   const auto scheme =
-      make_replayed(std::make_unique<Unchanging>(2.0 * step, run, &parts, energy),
+      make_replayed(std::make_unique<Unchanging>(2.0 * step, run, &parts),
                     std::make_unique<Unchanging>(step, replayed, &parts),
                     {.accuracy = 0.01, .length = 20.0 * step, .contacts = 1, .parts = 1, .most_parts = 8});
   for (int i = 0; i < 20'000; ++i)
@@ -288,21 +263,6 @@ TEST(Replays, RefineByTheErrorsOfStatistics) {
   EXPECT_EQ(refined_to(0.0, 0.0039), 8);
   EXPECT_EQ(refined_to(0.0072, 0.0), 1);
   EXPECT_EQ(refined_to(-0.0078, 0.0), 8);
-}
-
-// To two intervals a step, by a quarter of the accuracy of what is dissipated, by a fluid too, and stored.
-TEST(Replays, RefineByTheEnergyGained) {
-  const auto with_gain = [](double gain, Energy e) { // J
-    e.load_work = e.stored + e.modal_damping + e.contact_damping + e.friction - e.fluid_work - gain;
-    return refined_to(0.0, 0.0, e);
-  };
-  EXPECT_EQ(with_gain(0.2, {.modal_damping = 40.0, .contact_damping = 20.0, .friction = 40.0}), 1);
-  EXPECT_EQ(with_gain(0.3, {.modal_damping = 40.0, .contact_damping = 20.0, .friction = 40.0}), 2);
-  EXPECT_EQ(with_gain(-10.0, {.modal_damping = 100.0}), 1);
-  EXPECT_EQ(with_gain(0.2, {.stored = 100.0}), 1);
-  EXPECT_EQ(with_gain(0.3, {.stored = 100.0}), 2);
-  EXPECT_EQ(with_gain(0.2, {.fluid_work = -100.0}), 1); // a fluid that damps
-  EXPECT_EQ(with_gain(0.2, {.fluid_work = 100.0}), 2);
 }
 
 TEST(Replays, GoOnAfterARestartBitForBit) {
