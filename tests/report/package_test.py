@@ -94,7 +94,8 @@ class Package(unittest.TestCase):
         self.assertEqual([reactions.attrs["units"][column] for column in ("force.y.std", "largest_moment")], ["N", "N m"])
         series = results.series("ends[1]")["force"]
         self.assertEqual((series.sizes["time"], list(series.coords["force_axis"].values[:3])), (5001, ["x", "y", "z"]))
-        self.assertLessEqual(float(np.abs(series.sel(force_axis="y")).max()), 1.001 * max(-reactions["force.y.min"].iloc[1], reactions["force.y.max"].iloc[1]))
+        # the statistics are of the steps, which are nine outputs long: a peak between two of their middles is up to 1 % above
+        self.assertLessEqual(float(np.abs(series.sel(force_axis="y")).max()), 1.01 * max(-reactions["force.y.min"].iloc[1], reactions["force.y.max"].iloc[1]))
         with self.assertRaisesRegex(KeyError, "no section forces of 'x'; there are: tube"):
             results.section_forces("x")
         page = results.report().read_text(encoding="utf-8")
