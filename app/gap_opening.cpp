@@ -83,7 +83,7 @@ public:
   wear::Progress advance(const results::Wear& stage) {
     set_loads(stage);
     if (states_.empty())
-      begin();
+      states_ = states_at_start();
     wear::AdvanceOptions options{options_.years * wear::year - time_, options_.gap_share, options_.wall_share,
                                  options_.least_wall_share};
     std::vector<PlaceState> states;
@@ -129,6 +129,8 @@ public:
   }
 
 private:
+  /// By place and end; nothing: beyond its geometry.
+  using States = std::vector<std::array<std::optional<PlaceState>, 3>>;
   static constexpr double no_life = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] results::WearLife life_of(std::size_t s, WornBody body) const {
@@ -191,7 +193,8 @@ private:
   }
 
   /// By the loads of the first stage. Sectors are of the age of the one with the most work, whose depth is the initial one of the tube.
-  void begin() {
+  [[nodiscard]] States states_at_start() const {
+    States out;
     for (std::size_t s = 0; s < worn_.size(); ++s) {
       const auto [first, count] = supports_[s];
       std::size_t most = first;
@@ -199,7 +202,7 @@ private:
         if (work_rate(k) > work_rate(most))
           most = k;
       for (std::size_t k = first; k < first + count; ++k) {
-        auto& states = states_.emplace_back();
+        auto& states = out.emplace_back();
         for (const End end : ends) {
           const auto& loads = loads_[k][at(end)];
           const double age =
@@ -209,6 +212,7 @@ private:
         }
       }
     }
+    return out;
   }
 
   /// Wear of a place over a time; a limit lost within it is its life.
@@ -293,8 +297,7 @@ private:
   const std::vector<PlacedContact>& placed_;
   std::vector<OpenedPlaces> supports_;
   std::vector<wear::Place> places_;
-  std::vector<std::array<std::optional<PlaceState>, 3>>
-      states_; ///< by place and end; nothing: beyond its geometry
+  States states_; ///< none before the first stage
   std::vector<std::array<std::vector<OperatingState>, 3>> loads_;
   std::array<std::vector<std::array<double, 3>>, 2> lives_; ///< s, by body, place and end
   std::vector<bool> outside_; ///< supports to which their law did not apply in a stage

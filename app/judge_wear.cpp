@@ -45,8 +45,8 @@ void warn_of_depths(results::RunResults& out) {
       out, [](const WearOfSupport& s) { return s.initial_depth >= s.limit; },
       [](const WearOfSupport& s) {
         return fmt::format(
-            "the tube has lost its limit before: initial_wear is {:.3g} of the wall, limit {:.3g}; no "
-            "life is left",
+            "initial_wear = {:.3g} is at or above limit = {:.3g}: no life is left; give a higher limit "
+            "where one is allowed",
             s.initial_depth / s.wall, s.limit / s.wall);
       });
   warn(
@@ -56,10 +56,10 @@ void warn_of_depths(results::RunResults& out) {
                s.support_depth.value.front() >= s.support_limit;
       },
       [](const WearOfSupport& s) {
-        return fmt::format("the support would have lost its limit of {:.3g} mm before: {:.3g} mm, what the "
-                           "work rates wear of "
-                           "it while the tube comes to initial_wear",
-                           1e3 * s.support_limit, 1e3 * s.support_depth.value.front());
+        return fmt::format(
+            "the support reaches support_limit ({:.3g} mm) before the tube reaches initial_wear, where it "
+            "has lost {:.3g} mm; check support_coefficient and support_limit",
+            1e3 * s.support_limit, 1e3 * s.support_depth.value.front());
       });
   warn(
       out, [](const WearOfSupport& s) { return s.depth.last().value > s.wall; },

@@ -91,9 +91,10 @@ void combine_sides(WearOfSupport& support) {
   support.support_life = first_life(sides, &WornScar::support_life);
   double deepest = -1.0;
   for (const WearOfSide& side : sides) {
-    if (side.initial_depth > support.initial_depth) {
+    if (side.initial_depth > support.initial_depth ||
+        (side.initial_depth == support.initial_depth && !(support.initial_years <= side.initial_years))) {
       support.initial_depth = side.initial_depth;
-      support.initial_years = side.initial_years;
+      support.initial_years = std::isnan(side.initial_years) ? support.initial_years : side.initial_years;
     }
     if (!side.outside.empty())
       support.outside +=

@@ -149,13 +149,17 @@ std::optional<PlaceState> state_after(const Wearing& at, double time) {
   return out;
 }
 
-PlaceState described_state_after(const Wearing& at, double time) {
-  if (auto out = state_after(at, time))
-    return *out;
-  throw core::Error(
+core::Error beyond_geometry(const Wearing& at) {
+  return core::Error(
       fmt::format("wear leaves what its geometry describes (depth {:g} m); take the exact form or a "
                   "lower limit",
                   largest_depth(at.place.support.pairing)));
+}
+
+PlaceState described_state_after(const Wearing& at, double time) {
+  if (auto out = state_after(at, time))
+    return *out;
+  throw beyond_geometry(at);
 }
 
 } // namespace
@@ -185,7 +189,10 @@ PlaceState place_at_start(const Place& place, std::span<const OperatingState> lo
   out.tube_volume = worn.tube;
   out.support_volume = worn.support;
   out.age = worn.age;
-  out.depth = at.depth_of(worn.tube, worn.support).value();
+  const auto depth = at.depth_of(worn.tube, worn.support);
+  if (!depth)
+    throw beyond_geometry(at);
+  out.depth = *depth;
   return out;
 }
 
@@ -239,7 +246,7 @@ double time_to_limit(const Place& place, const PlaceState& state, std::span<cons
     const auto depth = at.depth(time);
     return depth ? depth_of(*depth, body) - limit : limit; // beyond the geometry: the root is then checked
   };
-  if (lost(0.0) >= 0.0)
+  if (lost(0.0) >= -root_error * limit)
     return 0.0;
   const WornVolume& own = body == WornBody::tube ? at.tube : at.support;
   if (!(own.initial_rate > 0.0) || std::isinf(limit))

@@ -28,9 +28,8 @@
 namespace fretwork::wear {
 
 struct Place {
-  WornSupport support; ///< its `support_limit` does not end an advance
-  double
-      initial_gap; ///< m, >= 0: where wear begins, of a new tube or with its initial depth, in the direction of wear
+  WornSupport support;   ///< its `support_limit` does not end an advance
+  double initial_gap;    ///< m, >= 0, in the direction of wear: of a new tube, or with its initial depth
   std::string name = {}; ///< in messages; empty: the number of the place
 };
 

@@ -10,7 +10,7 @@
 /// bracketing. "Never": the volume cannot be reached, or stops growing before.
 /// The interval of work rates is carried through: its upper end gives the larger depths and the shorter life.
 ///
-/// A tube that is worn already: t = 0 is where p_t is its initial depth, on the curve of the work rates at hand: V(t) = V(age + t), p_t(age) the
+/// A tube that is worn already: t = 0 is where p_t is its initial depth, on the curve of the work rates at hand: V(t) = V_new(age + t), p_t(age) the
 /// initial depth. Where these never wear as much the tube begins with the volume of that depth, the support new, and V(t) = V(0) + V_new(t).
 #pragma once
 #include "wear/depth.hpp"

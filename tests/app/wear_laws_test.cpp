@@ -44,7 +44,7 @@ TEST(WearLaws, GoOnFromInitialWear) {
   const Results spent = with_given_rate(
       folder, "geometry = \"flat_bar\"\ncoefficient = 2e-14\nlength = 8e-3\ninitial_wear = 0.5\n", "2e-3");
   EXPECT_EQ(support(spent)["life_years"]["value"], 0.0);
-  EXPECT_TRUE(says(spent.summary["warnings"].dump(), "initial_wear is 0.5 of the wall, limit 0.4"));
+  EXPECT_TRUE(says(spent.summary["warnings"].dump(), "initial_wear = 0.5 is at or above limit = 0.4"));
   EXPECT_TRUE(says(run.summary["notes"].dump(),
                    "the work rates would have worn as much in 3.74 years at \\\"support0\\\""))
       << run.summary["notes"].dump();
