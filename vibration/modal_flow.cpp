@@ -10,7 +10,7 @@
 namespace fretwork::vibration {
 
 namespace {
-/// w h from which on the motion over a step shows beside a cubic: (w h)^4/720 of its second derivative.
+/// w h from which on the motion over a step shows beside a cubic: its mean is off by (w h)^4/720 of its amplitude.
 constexpr double least_bow = 0.1;
 /// Of a mode that another flow moves.
 constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
@@ -70,7 +70,7 @@ ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<
     if (apart_[static_cast<std::size_t>(j)] && std::sqrt(lone_k_(j)) * h_ > least_bow) {
       const std::array<double, 4> by = bow_by(s, h_);
       bow_.set(j, {by[0], by[1], by[2], by[3]});
-      bows_ = true;
+      has_bow_ = true;
     }
   }
 }

@@ -57,7 +57,7 @@ public:
   void bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
            const kernels::Array& force, kernels::Array& bow) const;
   /// Whether any mode has one.
-  [[nodiscard]] bool bows() const { return bows_; }
+  [[nodiscard]] bool has_bow() const { return has_bow_; }
   [[nodiscard]] double energy(const State& state) const;
   /// Numbers of modes, padded.
   [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }
@@ -100,7 +100,7 @@ private:
   std::vector<kernels::MiddleTable> inverses_; ///< likewise: of kernels::own_works
   std::vector<kernels::MiddleTable> middles_;
   kernels::MiddleTable bow_; ///< of one step
-  bool bows_ = false;
+  bool has_bow_ = false;
   kernels::Array per_force_,
       rate_per_force_; ///< m/N, m/(N s) of the modes that are not coupled: by `response`
   kernels::Array k_, none_, a_, b_, moved_, rate_, states_;

@@ -71,7 +71,7 @@ public:
   /// As ModalFlow, of coordinates. No allocation.
   void bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
            const kernels::Array& force, kernels::Array& bow);
-  [[nodiscard]] bool bows() const { return uncoupled_.bows() || has_blocks(); }
+  [[nodiscard]] bool has_bow() const { return uncoupled_.has_bow() || has_blocks(); }
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const vibration::ModalForce* force, kernels::Array& q) {

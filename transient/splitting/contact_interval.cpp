@@ -251,7 +251,9 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
   if (a.penetration < 0.0) {
     const double square = a.rate * a.rate - 2.0 * a.acceleration_inwards * a.penetration;
     const double speed = square > 0.0 ? a.rate + std::sqrt(square) : 0.0;
-    return speed > 0.0 ? touch_after(a, -2.0 * a.penetration / speed, dt) : dt;
+    return speed > 0.0         ? touch_after(a, -2.0 * a.penetration / speed, dt)
+           : a.after(dt) > 0.0 ? touch_after(a, dt, dt)
+                               : dt;
   }
   if (closed)
     return 0.0;

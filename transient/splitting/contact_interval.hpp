@@ -3,7 +3,7 @@
 /// One contact over an interval dt of a step of the splitting scheme. It moves by
 ///     u(t) = path(t) + r(t),   r'' = W (f - held) + what the others' forces differ from those held - what the modes hold back of all these by V
 /// path: of the modes under the forces held; f: its force. At its mean position, under the force that is expected of it, stand its normal and the mean of its
-/// penetration, a parabola in time (doc/schemes.md, Turning normal). An open contact closes where this becomes positive, a closed one opens where
+/// penetration, a cubic in time (doc/schemes.md, Turning normal). An open contact closes where this becomes positive, a closed one opens where
 /// its force ends; its laws (contact/normal_interval.hpp, contact/friction_interval.hpp) hold between.
 #pragma once
 #include "contact/friction_interval.hpp"

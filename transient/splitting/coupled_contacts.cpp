@@ -87,7 +87,7 @@ FreePath CoupledContacts::path_of(int c, const StepMotion& motion) const {
           v0,
           per * (6.0 * mean - 4.0 * v0 - 2.0 * v1),
           (6.0 * per * per) * (v0 + v1 - 2.0 * mean),
-          motion.bow ? (60.0 * per * per) * of_lanes(*motion.bow, c) : Components(),
+          (60.0 * per * per) * of_lanes(motion.bow, c),
           per};
 }
 

@@ -21,8 +21,7 @@ namespace fretwork::transient {
 /// Of all contacts over a step, under the forces held.
 struct StepMotion {
   const ContactMotion &start, &end;
-  const kernels::Array* bow =
-      nullptr; ///< m, lanes: by how much the mean exceeds that of the cubic through both ends; null: not at all
+  const kernels::Array& bow; ///< m, lanes: by how much the mean exceeds that of the cubic through both ends
 };
 
 class CoupledContacts {

@@ -6,7 +6,7 @@
 namespace fretwork::transient {
 namespace {
 
-/// w h of modes that hold back a part of a force within the step. Slower ones hold back less than 3 % of it; faster ones are followed by no step, and from pi on
+/// w h of modes that hold back a part of a force within the step. Slower ones hold back less than 0.1 % of it; faster ones are followed by no step, and from pi on
 /// would turn the velocity that it gives.
 constexpr double least_held_back = 0.1, most_held_back = 3.0;
 

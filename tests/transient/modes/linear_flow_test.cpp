@@ -205,24 +205,27 @@ TEST(LinearFlow, AMotionThatIsKeptUpHasItsWorksToo) {
 TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
   constexpr int parts = 2000;
   Scene scene = rattling_tube(1.0);
-  scene.loads.clear();
+  scene.loads = {{Harmonic{1.0, 40.0, 0.4}, 30.0 * Eigen::VectorXd::LinSpaced(modes, 1.0, -2.0)}};
   for (const bool coupled : {false, true}) {
     scene.system.motion = coupled ? law() : core::MotionForces{};
     const double step = 1.5 / std::sqrt(scene.system.stiffness.maxCoeff());
     LinearFlow flow(scene, step, {1});
-    ASSERT_TRUE(flow.bows());
+    ASSERT_TRUE(flow.has_bow());
     const Eigen::VectorXd q0 = 1e-3 * Eigen::VectorXd::LinSpaced(modes, 1.0, -0.5),
                           v0 = Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7);
     const LinearFlow::State from = flow.start(q0, v0);
-    const kernels::Array none(static_cast<std::size_t>(flow.force_numbers()), 0.0);
+    kernels::Array load0(static_cast<std::size_t>(flow.force_numbers()), 0.0), load1(load0);
+    flow.load_about(0.0, step, load0);
+    flow.load_about(step, step, load1);
+    const vibration::ModalForce force{load1, kernels::Array(load1.size(), 0.0)}; // as good as any
     kernels::Array bow(static_cast<std::size_t>(flow.coordinates()), 0.0);
-    flow.bow(from, none, none, none, bow);
+    flow.bow(from, load0, load1, force.mean, bow);
     Eigen::VectorXd mean = Eigen::VectorXd::Zero(modes), q(modes), v(modes), q1(modes), v1(modes);
     for (int k = 0; k < parts; ++k) {
-      flow.inside((k + 0.5) / parts * step, step, from, none, none, nullptr, q.data(), v.data());
+      flow.inside((k + 0.5) / parts * step, step, from, load0, load1, &force, q.data(), v.data());
       mean += q / parts;
     }
-    flow.inside(step, step, from, none, none, nullptr, q1.data(), v1.data());
+    flow.inside(step, step, from, load0, load1, &force, q1.data(), v1.data());
     const Eigen::VectorXd exact = mean - 0.5 * (q0 + q1) - step / 12.0 * (v0 - v1);
     std::vector<ContactPoint> rows;
     for (Eigen::Index i = 0; i < modes; ++i) {

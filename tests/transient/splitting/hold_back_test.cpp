@@ -61,7 +61,7 @@ Forces in_intervals(std::size_t count, int intervals, double v_over_w) {
   }
   ContactTrial trial(packed.count);
   ContactLosses losses;
-  contacts.make({start, end}, near, trial, losses);
+  contacts.make({start, end, kernels::Array(start.u.size(), 0.0)}, near, trial, losses);
   Forces out{};
   for (std::size_t c = 0; c < count; ++c)
     out[c] = {contacts.force(near[c]).mean.y(), contacts.force(near[c]).slope.y()};
