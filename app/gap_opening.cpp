@@ -201,14 +201,16 @@ private:
       for (std::size_t k = first; k < first + count; ++k)
         if (work_rate(k) > work_rate(most))
           most = k;
+      std::array<double, 3> age{}; // of sectors
+      if (by_sector(worn_[s]))
+        for (const End end : ends)
+          age[at(end)] = place_at_start(places_[most], loads_[most][at(end)]).age;
       for (std::size_t k = first; k < first + count; ++k) {
         auto& states = out.emplace_back();
         for (const End end : ends) {
           const auto& loads = loads_[k][at(end)];
-          const double age =
-              by_sector(worn_[s]) ? place_at_start(places_[most], loads_[most][at(end)]).age : 0.0;
-          states[at(end)] =
-              age > 0.0 ? place_of_age(places_[k], loads, age) : place_at_start(places_[k], loads);
+          states[at(end)] = age[at(end)] > 0.0 ? place_of_age(places_[k], loads, age[at(end)])
+                                               : place_at_start(places_[k], loads);
         }
       }
     }

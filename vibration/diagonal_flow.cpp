@@ -226,48 +226,46 @@ void DiagonalFlow::add_block(const System& system, const CoupledBlock& of, doubl
   blocks_.push_back(std::move(b));
 }
 
-void DiagonalFlow::set_table(const Block& b, double t, double* table) const {
-  using Table = kernels::StateTable;
+/// Numbers of a table: write(l, set) for each eigenvalue l, set(number, value).
+template <class Write> void DiagonalFlow::write_numbers(const Block& b, double* table, const Write& write) {
   const auto pairs = static_cast<std::size_t>(b.count.pairs), width = static_cast<std::size_t>(b.width());
-  for (std::size_t i = 0; i < width; i = i + 1 == pairs ? 2 * pairs : i + 1) {
-    const auto set = [&](Table::Number number, Complex x) {
+  for (std::size_t i = 0; i < width; i = i + 1 == pairs ? 2 * pairs : i + 1)
+    write(b.values[i], [&](kernels::StateTable::Number number, Complex x) {
       double* to = table + static_cast<std::size_t>(number) * width + i;
       *to = x.real();
       if (i < pairs)
         to[pairs] = x.imag();
-    };
-    const std::array<Complex, 5> f = phi(b.values[i] * t);
+    });
+}
+
+void DiagonalFlow::set_table(const Block& b, double t, double* table) {
+  using Table = kernels::StateTable;
+  write_numbers(b, table, [&](Complex l, const auto& set) {
+    const std::array<Complex, 5> f = phi(l * t);
     set(Table::e, f[0]);
     set(Table::a0, t * (f[1] - f[2]));
     set(Table::a1, t * f[2]);
-    set(Table::l, b.values[i]);
+    set(Table::l, l);
     set(Table::p, t * f[2]);
     set(Table::p0, t * t * (f[3] - f[4]));
     set(Table::p1, t * t * f[4]);
     set(Table::r, t * (f[1] - f[2]));
     set(Table::r0, t * t * (f[2] - 2.0 * f[3] + f[4]));
     set(Table::r1, t * t * (f[3] - f[4]));
-  }
+  });
 }
 
 /// Of a table for steps of this length: by how much the mean exceeds that of the cubic, (y0 + y1)/2 + t (l y0 - l y1)/12.
 void DiagonalFlow::set_bow(const Block& b, double t, double* table) {
   using Table = kernels::StateTable;
-  const auto pairs = static_cast<std::size_t>(b.count.pairs), width = static_cast<std::size_t>(b.width());
-  for (std::size_t i = 0; i < width; i = i + 1 == pairs ? 2 * pairs : i + 1) {
-    const Complex z = b.values[i] * t;
+  write_numbers(b, table, [&](Complex l, const auto& set) {
+    const Complex z = l * t;
     const std::array<Complex, 5> f = phi(z);
     const Complex a0 = t * (f[1] - f[2]), a1 = t * f[2];
-    const auto set = [&](Table::Number number, Complex x) {
-      double* to = table + static_cast<std::size_t>(number) * width + i;
-      *to = x.real();
-      if (i < pairs)
-        to[pairs] = x.imag();
-    };
     set(Table::e, f[1] - 0.5 * (1.0 + f[0]) - z / 12.0 * (1.0 - f[0]));
     set(Table::a0, t * (f[2] - f[3]) - (0.5 - z / 12.0) * a0);
     set(Table::a1, t * f[3] - (0.5 - z / 12.0) * a1);
-  }
+  });
 }
 
 void DiagonalFlow::start(const double* q, const double* v, double* y) const {

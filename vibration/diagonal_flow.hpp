@@ -93,7 +93,8 @@ private:
     [[nodiscard]] int rows() const { return kernels::padded(2 * static_cast<int>(modes.size())); }
   };
   void add_block(const System& system, const CoupledBlock& of, double step, const std::vector<int>& lengths);
-  void set_table(const Block& b, double t, double* table) const;
+  template <class Write> static void write_numbers(const Block& b, double* table, const Write& write);
+  static void set_table(const Block& b, double t, double* table);
   static void set_bow(const Block& b, double t, double* table);
   [[nodiscard]] const double* modes_of_block(const Block& b, const double* y);
 

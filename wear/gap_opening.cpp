@@ -29,10 +29,10 @@ struct Wearing {
     return depths(place.support.pairing, tube_volume, support_volume);
   }
   [[nodiscard]] double tube_volume(double time) const {
-    return state.tube_volume + tube.at(state.age + time) - tube.at(state.age);
+    return AgedVolume{tube, state.age, state.tube_volume}.at(time);
   }
   [[nodiscard]] double support_volume(double time) const {
-    return state.support_volume + support.at(state.age + time) - support.at(state.age);
+    return AgedVolume{support, state.age, state.support_volume}.at(time);
   }
   [[nodiscard]] std::optional<PairDepth> depth(double time) const {
     return depth_of(tube_volume(time), support_volume(time));

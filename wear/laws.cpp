@@ -94,6 +94,13 @@ std::optional<double> WornVolume::time_of(double volume) const {
                           volume / initial_rate * (1.0 - wider), volume / final_rate * (1.0 + wider));
 }
 
+std::optional<double> AgedVolume::time_of(double volume) const {
+  if (volume <= before)
+    return 0.0;
+  const auto time = law.time_of(law.at(age) + volume - before);
+  return time ? std::optional(*time - age) : time;
+}
+
 void check(const Law& law) {
   if (const auto* archard = std::get_if<Archard>(&law))
     return check_not_negative("archard", "coefficient", archard->coefficient, "m2/N");

@@ -67,6 +67,16 @@ struct WornVolume {
   [[nodiscard]] std::optional<double> time_of(double volume) const;
 };
 
+/// Of a body that its law has worn for `age` seconds (0: not this law), to the volume `before`.
+struct AgedVolume {
+  WornVolume law;
+  double age = 0.0, before = 0.0; ///< s, m3
+  /// m3 a time (s, >= 0) later.
+  [[nodiscard]] double at(double time) const { return before + (law.at(age + time) - law.at(age)); }
+  /// s until a volume (m3) is worn; nothing: never.
+  [[nodiscard]] std::optional<double> time_of(double volume) const;
+};
+
 /// The condition of a law that does not hold: `value` is below `least`.
 struct OutsideLaw {
   std::string law, quantity; ///< "edf_mz", "V0"

@@ -31,19 +31,6 @@ std::vector<OperatingState> at_bound(std::span<const UncertainState> states, Bou
   return out;
 }
 
-/// One body against time, worn before it begins.
-struct AgedVolume {
-  WornVolume law;
-  double age = 0.0, before = 0.0; ///< s, m3
-  [[nodiscard]] double at(double time) const { return before + (law.at(age + time) - law.at(age)); }
-  [[nodiscard]] std::optional<double> time_of(double volume) const {
-    if (volume <= before)
-      return 0.0;
-    const auto time = law.time_of(law.at(age) + volume - before);
-    return time ? std::optional(*time - age) : time;
-  }
-};
-
 /// Both bodies against time.
 struct Pair {
   const Pairing& pairing;

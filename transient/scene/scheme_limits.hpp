@@ -51,7 +51,8 @@ struct SchemeLimits {
   /// r_n dt: a contact that its normal damper stops, of schemes that have it implicitly; others have it in r_e. With splitting the force falls within an
   /// interval as a parabola up to contact::most_parabolic; collocation leaves a tenth of the speed of a mass at 4, where 0.02 is right.
   StepBound normal_damper = {};
-  /// w_max h, with contacts. A mode takes 88 % of an impulse that is short in a step of splitting at 1.75, which resonates with modes at pi; energy_conserving has the same resonance; Euler's limit of stability is 2, that of devogelaere 2.8.
+  /// w_max h, with contacts. A mode takes 88 % of an impulse that is short in a step of splitting at 1.75, which resonates with modes at pi;
+  /// energy_conserving has the same resonance; Euler's limit of stability is 2, that of devogelaere 2.8.
   StepBound highest_mode = {};
   /// In a period of harmonic and random loads on contacts, at an accuracy of 0.01. splitting gives their polygons corners that make up for what lines lose (vibration/load_sum.hpp):
   /// nothing of harmonic loads, (2 pi/10)^4/240 = 0.07 % of the highest frequency of random ones. Others: (2 pi/30)^2/12 = 0.4 %.

@@ -10,8 +10,8 @@
 /// h w_max up to 1.75, in which the quartic that contacts follow between the ends of a step is the modes' motion to (w h)^5/14000: 0.12 %.
 ///
 /// No contact is closed in a step of length L where its gaps at both ends exceed a third of its speeds there times L: its path is in the hull of u0,
-/// u0 + w0 L/3, u1 - w1 L/3, u1 (but for what it exceeds the cubic by, 2.4 % of the amplitude of a mode of w h = 1.75), and gaps are concave functions of it; of round bodies side by side, whose gap is convex, where they exceed the
-/// speeds times L. That is the path under the forces held: a contact that others push in and out again within a step is not seen.
+/// u0 + w0 L/3, u1 - w1 L/3, u1, but for what it exceeds the cubic by (2.4 % of the amplitude of a mode of w h = 1.75), and gaps are concave functions
+/// of it; of round bodies side by side, whose gap is convex, where they exceed the speeds times L. That is the path under the forces held: a contact that others push in and out again within a step is not seen.
 ///
 /// Energy: works of loads and contact forces on the modes are exact, modal damping is what the flow does not keep of them. The residual of the
 /// energy balance is what the contacts' laws, along their own path, made otherwise than the modes. Where forces of motion couple modes their energy, the
