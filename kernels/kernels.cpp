@@ -301,7 +301,7 @@ FRETWORK_INLINE void scatter_here(int i, int rows, const double* const* row, con
 #pragma GCC unroll 4
     for (int n = 0; n < vectors; ++n) {
       const V values = at<V>(row[r] + i + n * size_of<V>);
-#pragma GCC unroll 3
+#pragma GCC unroll 5
       for (int t = 0; t < targets; ++t)
         s[t][n] += target[t].factor[r] * values;
     }
@@ -323,8 +323,12 @@ FRETWORK_INLINE void scatter_several_on(int np, int rows, const double* const* r
                                         const ScatterTarget* target) {
   if (targets == 2)
     scatter_to<V, 2>(np, rows, row, target);
-  else
+  else if (targets == 3)
     scatter_to<V, 3>(np, rows, row, target);
+  else if (targets == 4)
+    scatter_to<V, 4>(np, rows, row, target);
+  else
+    scatter_to<V, 5>(np, rows, row, target);
 }
 FRETWORK_KERNEL(void, scatter_several,
                 (int np, int rows, const double* const* row, int targets, const ScatterTarget* target),

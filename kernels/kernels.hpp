@@ -254,8 +254,8 @@ extern const Kernel<void(const GatherTable& g, const double* q, int q_stride, do
 /// v += sum over r of factor[r] * row[r].
 extern const Kernel<void(int np, int rows, const double* const* row, const double* factor, double* v)>
     scatter;
-/// The same for two or three vectors v, each with factors of its own: rows are read once.
-inline constexpr int most_scattered = 3;
+/// The same for two to five vectors v, each with factors of its own: rows are read once.
+inline constexpr int most_scattered = 5;
 struct ScatterTarget {
   const double* factor;
   double* v;

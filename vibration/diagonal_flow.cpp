@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vibration/diagonal_flow.hpp"
 #include "core/general_eigenvalues.hpp"
+#include "vibration/oscillator.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,6 +40,21 @@ std::array<Complex, 5> phi(Complex x) {
   for (std::size_t k = 4; k-- > 1;)
     out[k] = first[k] + x * out[k + 1];
   return out;
+}
+
+/// Of forces by Legendre's polynomials of degree 0 to 3 y takes, over t, phi_1, 2 phi_2 - phi_1, phi_1 - 6 phi_2 + 12 phi_3 and
+/// 120 phi_4 - 60 phi_3 + 12 phi_2 - phi_1 times them. Real shares of the first two, which are the same for the conjugate coordinate.
+std::array<LinearForce, 2> linear_for_bends_of(Complex l, double t) {
+  if (!(std::abs(l) * t < longest_shown))
+    return {};
+  const std::array<Complex, 5> f = phi(l * t);
+  const Complex slope = 2.0 * f[2] / f[1] - 1.0;
+  const auto linear = [&](Complex taken) {
+    const Complex of = taken / f[1];
+    const double by_slope = l.imag() != 0.0 ? of.imag() / slope.imag() : 0.0;
+    return LinearForce{of.real() - by_slope * slope.real(), by_slope};
+  };
+  return {linear(f[1] - 6.0 * f[2] + 12.0 * f[3]), linear(120.0 * f[4] - 60.0 * f[3] + 12.0 * f[2] - f[1])};
 }
 
 /// A of (q, v, z).
@@ -128,7 +144,8 @@ MatrixXd work_form(const core::Diagonalised& found, const std::vector<Coordinate
 } // namespace
 
 DiagonalFlow::DiagonalFlow(const System& system, const std::vector<CoupledBlock>& blocks, double step,
-                           const std::vector<int>& lengths) {
+                           const std::vector<int>& lengths)
+    : step_(step) {
   for (const CoupledBlock& block : put_together(blocks))
     add_block(system, block, step, lengths);
   std::size_t width = 0, modes = 0;
@@ -266,6 +283,22 @@ void DiagonalFlow::set_bow(const Block& b, double t, double* table) {
     set(Table::a0, t * (f[2] - f[3]) - (0.5 - z / 12.0) * a0);
     set(Table::a1, t * f[3] - (0.5 - z / 12.0) * a1);
   });
+}
+
+void DiagonalFlow::linear_for_bends(BentForce& by, std::size_t first) const {
+  for (const Block& b : blocks_) {
+    const auto width = static_cast<std::size_t>(b.width()), pairs = static_cast<std::size_t>(b.count.pairs);
+    for (std::size_t i = 0; i < width; ++i) {
+      const std::array<LinearForce, 2> of =
+          linear_for_bends_of(b.values[i >= pairs && i < 2 * pairs ? i - pairs : i], step_);
+      for (std::size_t number = 0; number < kernels::numbers_of_input; ++number)
+        for (std::size_t k = 0; k < by.size(); ++k) {
+          const std::size_t at = first + kernels::numbers_of_input * b.first + number * width + i;
+          by[k].mean[at] = of[k].mean;
+          by[k].slope[at] = of[k].slope;
+        }
+    }
+  }
 }
 
 void DiagonalFlow::start(const double* q, const double* v, double* y) const {

@@ -17,7 +17,7 @@
 /// exceed 1e-10. Eigenvalues that leave q and v alone to 1e-12 are left out.
 #pragma once
 #include "kernels/state_kernels.hpp"
-#include "vibration/system.hpp"
+#include "vibration/modal_flow.hpp"
 #include <complex>
 #include <vector>
 
@@ -65,6 +65,8 @@ public:
   void middle(std::size_t place, const double* y0, const kernels::StateInputs& inputs, double* y);
   /// As ModalFlow::bow, of y over one step, so far as it shows in displacements. No allocation.
   void bow(const double* y0, const kernels::StateInputs& inputs, double* bow);
+  /// As ModalFlow::linear_for_bends, of the numbers of inputs from `first` on: those of one y have the same.
+  void linear_for_bends(BentForce& by, std::size_t first) const;
   /// y, and l y where it is asked for, a time t after y0, the inputs being those at the start and then. No allocation.
   void inside(double t, const double* y0, const kernels::StateInputs& inputs, double* y,
               double* rate = nullptr);
@@ -100,6 +102,7 @@ private:
 
   std::vector<Block> blocks_;
   std::size_t size_ = 0;
+  double step_ = 0.0;
   kernels::Array modes_, moved_, table_; ///< of the largest block
 };
 

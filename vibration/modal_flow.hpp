@@ -11,14 +11,19 @@
 #include "core/state_archive.hpp"
 #include "vibration/coupled_flow.hpp"
 #include "vibration/load_sum.hpp"
+#include <array>
 
 namespace fretwork::vibration {
 
-/// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded. It is that of forces on contacts.
+/// A force on the modes over a step, from mean - slope at its start to mean + slope at its end, padded. It is that of forces on contacts; of what these bend
+/// within the step it has the effect at its end (BentForce).
 struct ModalForce {
   kernels::Array mean, slope;
   void visit(core::StateArchive& state) { state(mean, slope); }
 };
+
+/// What a force that bends within the step, by Legendre's polynomials of degree 2 and 3 (oscillator.hpp), is to each mode: shares of its coefficients.
+using BentForce = std::array<ModalForce, 2>;
 
 class ModalFlow {
 public:
@@ -58,6 +63,9 @@ public:
            const kernels::Array& force, kernels::Array& bow) const;
   /// Whether any mode has one.
   [[nodiscard]] bool has_bow() const { return has_bow_; }
+  /// Of each mode over one step the linear forces that leave it where bent ones do (linear_for_bends): 0 of modes without bow, and of those that half a
+  /// period of is shorter than the step; of coupled ones as if they were alone.   @param by  padded
+  void linear_for_bends(BentForce& by) const;
   [[nodiscard]] double energy(const State& state) const;
   /// Numbers of modes, padded.
   [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }

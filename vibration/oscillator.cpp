@@ -149,6 +149,19 @@ kernels::StepCoefficients step_coefficients(double k, double c, double h) {
   return s;
 }
 
+std::array<LinearForce, 2> linear_for_bends(double k, double c, double h,
+                                            const kernels::StepCoefficients& s) {
+  const double q0 = s.qf0 + s.qf1, q1 = s.qf1, v0 = s.vf0 + s.vf1, v1 = s.vf1;
+  const double v2 = 2.0 / h * q1, q2 = (1.0 - c * v2 - 2.0 / h * v1) / k; // Q_2'' = 2 Q_1'/h
+  const double v3 = 3.0 / h * q2, q3 = (1.0 - c * v3 - 6.0 / (h * h) * q1) / k;
+  const double q_slope = 2.0 * q1 - q0, v_slope = 2.0 * v1 - v0, det = q0 * v_slope - q_slope * v0;
+  const auto linear = [&](double q, double v) {
+    return LinearForce{(v_slope * q - q_slope * v) / det, (q0 * v - v0 * q) / det};
+  };
+  return {linear(6.0 * (q2 - q1) + q0, 6.0 * (v2 - v1) + v0),
+          linear(20.0 * q3 - 30.0 * q2 + 12.0 * q1 - q0, 20.0 * v3 - 30.0 * v2 + 12.0 * v1 - v0)};
+}
+
 DenseCoefficients dense_coefficients(double k, double c, double t) {
   const Impulse im = impulse_response(k, c, t);
   const LoadResponse r = load_response(k, c, t, im);

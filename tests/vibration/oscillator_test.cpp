@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The coefficients of one mode against the exponential of a matrix in extended precision.
 #include "vibration/oscillator.hpp"
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -53,7 +54,37 @@ void expect_near(double value, long double exact, double bound, const Mode& mode
       << name << " at k = " << mode.k << ", c = " << mode.c;
 }
 
+/// Displacement and velocity at h = 1 from rest, by the exponential of the chain of the force's derivatives.   @param f  the force and its derivatives at the start
+std::array<double, 2> end_under(const Mode& mode, const std::array<double, 4>& f) {
+  Eigen::Matrix<long double, 6, 6> a = Eigen::Matrix<long double, 6, 6>::Zero();
+  a(0, 1) = 1.0;
+  a(1, 0) = -mode.k;
+  a(1, 1) = -mode.c;
+  a(1, 2) = a(2, 3) = a(3, 4) = a(4, 5) = 1.0;
+  Eigen::Matrix<long double, 6, 1> start;
+  start << 0.0, 0.0, f[0], f[1], f[2], f[3];
+  const Eigen::Matrix<long double, 6, 1> end = a.exp() * start;
+  return {static_cast<double>(end(0)), static_cast<double>(end(1))};
+}
+
 } // namespace
+
+TEST(LinearForBends, LeaveTheModeWhereBentForcesDo) {
+  for (const double wh : {0.11, 0.5, 1.5, 2.0, 2.9})
+    for (const double ratio : {0.0, 0.01, 0.2, 1.0, 3.0}) {
+      const Mode m{wh * wh, 2.0 * ratio * wh};
+      const std::array<LinearForce, 2> by = linear_for_bends(m.k, m.c, 1.0, step_coefficients(m.k, m.c, 1.0));
+      const std::array<double, 4> bends[] = {{1.0, -6.0, 12.0, 0.0}, {-1.0, 12.0, -60.0, 120.0}};
+      for (std::size_t i = 0; i < by.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << "w h = " << wh << ", damping ratio " << ratio << ", bend " << i);
+        const auto [q, v] = end_under(m, bends[i]);
+        const auto [q_linear, v_linear] =
+            end_under(m, {by[i].mean - by[i].slope, 2.0 * by[i].slope, 0.0, 0.0});
+        EXPECT_NEAR(q_linear, q, 1e-10);
+        EXPECT_NEAR(v_linear, v, 1e-10);
+      }
+    }
+}
 
 TEST(StepCoefficients, AreThoseOfTheMatrixExponentialInEveryRegime) {
   for (const Mode& m : modes()) {

@@ -48,8 +48,11 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
       uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
       modes_(scene.system.size()), lengths_(lengths) {
   none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
+  for_bends_.fill({none_, none_});
+  uncoupled_.linear_for_bends(for_bends_);
   if (blocks_.empty())
     return;
+  blocks_.linear_for_bends(for_bends_, static_cast<std::size_t>(uncoupled_.padded()));
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
   driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step,

@@ -72,6 +72,14 @@ public:
   void bow(const State& from, const kernels::Array& load0, const kernels::Array& load1,
            const kernels::Array& force, kernels::Array& bow);
   [[nodiscard]] bool has_bow() const { return uncoupled_.has_bow() || has_blocks(); }
+  /// Adds to a linear force those that leave the modes where its bends do (vibration::BentForce). No allocation.
+  void add_bends(const std::array<kernels::Array, 2>& bends, vibration::ModalForce& force) const {
+    for (std::size_t k = 0; k < bends.size(); ++k)
+      for (std::size_t i = 0; i < bends[k].size(); ++i) {
+        force.mean[i] += for_bends_[k].mean[i] * bends[k][i];
+        force.slope[i] += for_bends_[k].slope[i] * bends[k][i];
+      }
+  }
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const vibration::ModalForce* force, kernels::Array& q) {
@@ -120,6 +128,7 @@ private:
   std::optional<vibration::LoadSum> driven_; ///< on the blocks, but for sampled loads
   std::optional<vibration::LoadSum> random_; ///< sampled loads on all modes
   BlockEnergies start_;                      ///< fluid_work: y^T P y
+  vibration::BentForce for_bends_;           ///< by numbers of a force
   kernels::Array none_, a_, b_, y_, q_, v_;
 };
 

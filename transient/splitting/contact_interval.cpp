@@ -159,8 +159,8 @@ void ContactIntervals::extrapolate(MovingContact& m, const IntervalTable& table)
 
 Components ContactIntervals::with_means(const MovingContact& m, bool of_normal, bool of_friction) {
   const contact::ContactAxes& axes = m.course.past.axes;
-  const Components &along_normal = of_normal ? m.course.mean : m.last,
-                   &tangential = of_friction ? m.course.mean : m.last;
+  const Components &along_normal = of_normal ? m.course.force.mean : m.last,
+                   &tangential = of_friction ? m.course.force.mean : m.last;
   return along(axes, normal(axes, along_normal), {tangential.x, tangent(axes, tangential)});
 }
 
@@ -384,10 +384,14 @@ inline void ContactIntervals::add_force(Passage passage, const Motion& motion, c
     rotate_force(motion, n, table.length, m);
   if (course.past.closed)
     m.last = n.from > 0.0 ? (n.course.last / n.force) * m.force : m.force + 0.5 * m.growth;
-  const double middle = index * table.share + 0.5 * table.share; // share of the step
-  course.mean = course.mean + table.share * m.force;
-  course.slope =
-      course.slope + table.share * ((6.0 * middle - 3.0) * m.force + (0.5 * table.share) * m.growth);
+  const double share = table.share, x = (2.0 * index + 1.0) * share - 1.0; // the interval's middle
+  const double s2 = share * share, x2 = x * x;
+  StepForce& f = course.force;
+  f.mean = f.mean + share * m.force;
+  f.slope = f.slope + share * ((3.0 * x) * m.force + (0.5 * share) * m.growth);
+  f.bends[0] = f.bends[0] + (2.5 * share) * ((3.0 * x2 + s2 - 1.0) * m.force + (share * x) * m.growth);
+  f.bends[1] = f.bends[1] + (3.5 * share) * ((x * (5.0 * (x2 + s2) - 3.0)) * m.force +
+                                             (0.5 * share * (5.0 * x2 + s2 - 1.0)) * m.growth);
 }
 
 void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, int index) const {

@@ -13,6 +13,7 @@
 #include "transient/scene/scheme.hpp"
 #include "transient/splitting/components.hpp"
 #include "transient/splitting/passage.hpp"
+#include <array>
 
 namespace fretwork::transient {
 
@@ -51,10 +52,16 @@ struct ContactPast {
   Components rise;                ///< N/s, of its force in its last interval, where it was closed throughout
 };
 
+/// A force over a step, N: mean + slope x + b_0 (3 x^2 - 1)/2 + b_1 (5 x^3 - 3 x)/2 with x from -1 to 1, its part by Legendre's polynomials up to degree 3.
+struct StepForce {
+  Components mean, slope;
+  std::array<Components, 2> bends;
+};
+
 /// What a contact has done in a step so far: all that ContactIntervals::find_force adds to from interval to interval. Whoever puts it back finds the
 /// forces of the interval again.
 struct ContactCourse {
-  Components mean, slope;  ///< N: over the step its force is linear in time from mean - slope to mean + slope
+  StepForce force;         ///< over the step
   ContactState state;      ///< over the step
   ContactPast past;        ///< now
   double relaxed = 0.0;    ///< J, given up by its tangential spring while it was open

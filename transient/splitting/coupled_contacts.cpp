@@ -126,7 +126,7 @@ void CoupledContacts::find_forces(const StepMotion& motion, const std::vector<in
   for (const int c : near) {
     trial.states[c] = {}; // also of contacts that were near and open
     Force& force = forces_[c];
-    force.mean = force.slope = {};
+    static_cast<StepForce&>(force) = {};
     const FreePath path = path_of(c, motion);
     const int count = laws_[c].least_count(parts_[c], pasts_[c], path);
     if (!laws_[c].may_close(pasts_[c], path, count) &&
@@ -146,7 +146,7 @@ void CoupledContacts::find_forces(const StepMotion& motion, const std::vector<in
   for (const MovingContact& m : moving_) {
     before_step_.push_back({m.number, pasts_[m.number], forces_[m.number].held});
     pasts_[m.number] = m.course.past;
-    forces_[m.number] = {m.course.mean, m.course.slope, laws_[m.number].held(m)};
+    forces_[m.number] = {m.course.force, laws_[m.number].held(m)};
     trial.states[m.number] = m.course.state;
     losses.damping += m.course.state.damper_work + m.course.relaxed;
     losses.friction += m.course.state.friction_work;

@@ -53,10 +53,9 @@ public:
   /// Steps in which all contacts stay open. No allocation.
   void pass(int steps, ContactTrial& trial, ContactLosses& losses);
 
-  /// Of contact c over the last step `make` made with it, along y z x, N: linear in time from mean - slope to mean + slope.
-  struct Force {
-    Components mean, slope;
-    Components held; ///< for the next step: 0 where it is open at the end
+  /// Of contact c over the last step `make` made with it, along y z x.
+  struct Force : StepForce {
+    Components held; ///< N, for the next step: 0 where it is open at the end
   };
   [[nodiscard]] const Force& force(int c) const { return forces_[c]; }
   /// Whether the forces of all contacts were found in the last step; else those of some kept on changing.

@@ -350,6 +350,8 @@ private:
     std::copy(end_.w.begin(), end_.w.end(), predicted_.w.begin());
     for (;;) {
       forces_.assemble(coupled_, near_, &s.force);
+      if (forces_.any_bend())
+        modes_.add_bends(forces_.bends(), s.force);
       const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
       end_.gather(to.from.q.data(), to.from.v.data());
       imposed_[1].add_to(end_);

@@ -6,32 +6,34 @@ namespace fretwork::transient {
 
 StepForces::StepForces(const PackedContacts& contacts)
     : components_(contacts.components), rows_(contacts),
-      held_(static_cast<std::size_t>(contacts.padded_modes), 0.0) {
+      held_(static_cast<std::size_t>(contacts.padded_modes), 0.0), bends_{held_, held_} {
   for (auto& f : factors_)
     f.resize(3 * static_cast<std::size_t>(contacts.count));
 }
 
-void StepForces::add(int c, int component, double held, double mean, double slope) {
+void StepForces::add(int c, int component, const Factors& of) {
+  const auto& [held, mean, slope, bend, twist] = of;
   if (mean == 0.0 && slope == 0.0 && held == 0.0)
     return;
-  factors_[0][rows_.size()] = held;
-  factors_[1][rows_.size()] = mean;
-  factors_[2][rows_.size()] = slope;
+  for (std::size_t k = 0; k < of.size(); ++k)
+    factors_[k][rows_.size()] = of[k];
   rows_.add(c, component);
   any_held_ = any_held_ || held != 0.0;
   any_slope_ = any_slope_ || slope != 0.0;
+  any_bend_ = any_bend_ || bend != 0.0 || twist != 0.0;
 }
 
 void StepForces::assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,
                           vibration::ModalForce* found) {
-  any_held_ = any_slope_ = false;
+  any_held_ = any_slope_ = any_bend_ = false;
   rows_.clear();
   for (const int c : contacts) {
     const CoupledContacts::Force& f = coupled.force(c);
-    add(c, 0, f.held.y(), f.mean.y(), f.slope.y());
-    add(c, 1, f.held.z(), f.mean.z(), f.slope.z());
+    const auto& [b0, b1] = f.bends;
+    add(c, 0, {f.held.y(), f.mean.y(), f.slope.y(), b0.y(), b1.y()});
+    add(c, 1, {f.held.z(), f.mean.z(), f.slope.z(), b0.z(), b1.z()});
     if (components_ == 3)
-      add(c, 2, f.held.x, f.mean.x, f.slope.x);
+      add(c, 2, {f.held.x, f.mean.x, f.slope.x, b0.x, b1.x});
   }
   RowScatter::Targets targets{};
   std::size_t count = 0;
@@ -45,6 +47,8 @@ void StepForces::assemble(const CoupledContacts& coupled, const std::vector<int>
   if (found) {
     sum(1, found->mean, true);
     sum(2, found->slope, any_slope_);
+    for (std::size_t k = 0; any_bend_ && k < bends_.size(); ++k)
+      sum(3 + k, bends_[k], true);
   }
   if (count > 0)
     rows_.add_to(targets, static_cast<int>(count));

@@ -16,9 +16,12 @@ public:
   /// @param contacts  with rows over the numbers of a force; must live longer
   explicit StepForces(const PackedContacts& contacts);
 
-  /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step; null: only those held are wanted
+  /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step without their bends; null: only those held are wanted
   void assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,
                 vibration::ModalForce* found);
+  /// Whether any force found bends within the step; modal forces of the bends (StepForce), only where there are any.
+  [[nodiscard]] bool any_bend() const { return any_bend_; }
+  [[nodiscard]] const std::array<kernels::Array, 2>& bends() const { return bends_; }
   /// Whether any force is held.
   [[nodiscard]] bool any_held() const { return any_held_; }
   /// Modal force of those held, padded; only where there are any.
@@ -26,13 +29,15 @@ public:
   void visit(core::StateArchive& state) { state(held_, any_held_); }
 
 private:
-  void add(int c, int component, double held, double mean, double slope);
+  using Factors = std::array<double, 5>; ///< N, of held, mean, slope, bends
+  void add(int c, int component, const Factors& of);
 
   int components_;
   RowScatter rows_;
-  std::array<std::vector<double>, 3> factors_; ///< N, held, mean, slope
+  std::array<std::vector<double>, 5> factors_;
   kernels::Array held_;
-  bool any_held_ = false, any_slope_ = false;
+  std::array<kernels::Array, 2> bends_;
+  bool any_held_ = false, any_slope_ = false, any_bend_ = false;
 };
 
 } // namespace fretwork::transient

@@ -244,4 +244,65 @@ TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
   }
 }
 
+// A force that bends within a step leaves the modes where the linear one does that stands for it, with the same work: modes alone, and those that forces of motion
+// couple. Against short steps.
+TEST(LinearFlow, TakesForcesThatBendWithinTheStep) {
+  constexpr int parts = 400;
+  Scene scene = rattling_tube(1.0);
+  scene.loads = {{Constant{1.0}, 30.0 * Eigen::VectorXd::LinSpaced(modes, 1.0, -2.0)}};
+  for (const bool coupled : {false, true}) {
+    scene.system.motion = coupled ? law() : core::MotionForces{};
+    const double step = 2.0 / std::sqrt(scene.system.stiffness.maxCoeff());
+    LinearFlow flow(scene, step, {1}), fine(scene, step / parts, {1});
+    const LinearFlow::State from = flow.start(1e-3 * Eigen::VectorXd::LinSpaced(modes, 1.0, -0.5),
+                                              Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7));
+    kernels::Array pattern(static_cast<std::size_t>(flow.force_numbers()), 0.0);
+    const kernels::Array none(pattern);
+    flow.load_about(0.0, step, pattern);
+    const auto times = [&](double factor) {
+      kernels::Array out(pattern);
+      for (double& x : out)
+        x *= factor;
+      return out;
+    };
+    for (const std::array<double, 2>& bends : {std::array{1.0, 0.0}, {0.0, 1.0}, {1.0, -2.0}}) {
+      const auto at = [&](double x) { // of the force, x from -1 to 1
+        return 0.2 + bends[0] * 0.5 * (3.0 * x * x - 1.0) + bends[1] * 0.5 * (5.0 * x * x * x - 3.0 * x);
+      };
+      vibration::ModalForce force{times(0.2), none};
+      flow.add_bends({times(bends[0]), times(bends[1])}, force);
+      LinearFlow::State to = from, now = from, next = from;
+      LinearFlow::BlockWorks works, fine_works;
+      const auto moved = [&](LinearFlow& by, const LinearFlow::State& start,
+                             const vibration::ModalForce& under, LinearFlow::State& end,
+                             LinearFlow::BlockWorks& of) {
+        auto sums = by.push(start, none, none, under.mean, under.slope, end);
+        by.add_works(1, start, none, none, &under, sums, of);
+        return sums.contact_work;
+      };
+      const double work = moved(flow, from, force, to, works);
+      double exact = 0.0;
+      for (int k = 0; k < parts; ++k) {
+        const double first = at(2.0 * k / parts - 1.0), half = at((2.0 * k + 1.0) / parts - 1.0),
+                     last = at(2.0 * (k + 1) / parts - 1.0);
+        exact += moved(fine, now, {times((first + 4.0 * half + last) / 6.0), times(0.5 * (last - first))},
+                       next, fine_works);
+        std::swap(now, next);
+      }
+      const auto size = [](const kernels::Array& of) {
+        double out = 0.0;
+        for (const double x : of)
+          out = std::max(out, std::abs(x));
+        return out;
+      };
+      SCOPED_TRACE(testing::Message() << coupled << bends[0] << bends[1]);
+      for (std::size_t i = 0; i < to.q.size(); ++i) {
+        EXPECT_NEAR(to.q[i], now.q[i], 1e-8 * size(now.q));
+        EXPECT_NEAR(to.v[i], now.v[i], 1e-8 * size(now.v));
+      }
+      EXPECT_NEAR(work, exact, 1e-2 * std::abs(exact)); // modal damping takes another part of it
+    }
+  }
+}
+
 } // namespace linear_flow_test

@@ -75,11 +75,43 @@ TEST(ContactIntervals, LeaveWhatRestsAtRest) {
   const Components held{0.0, -stiffness * penetration, 0.0};
   const MovingContact m = through(support, isotropic(w), step, 2,
                                   {{0.0, 1e-3 + penetration, 0.0}, {}, {}, {}}, closed({0.0, -1.0}), held);
-  EXPECT_NEAR(m.course.mean.z() / held.z(), 1.0, 1e-12);
-  EXPECT_NEAR(m.course.slope.z() / held.z(), 0.0, 1e-12);
+  EXPECT_NEAR(m.course.force.mean.z() / held.z(), 1.0, 1e-12);
+  EXPECT_NEAR(m.course.force.slope.z() / held.z(), 0.0, 1e-12);
   EXPECT_NEAR(m.response.z(), 0.0, 1e-12 * penetration);
   EXPECT_TRUE(m.course.past.closed);
   EXPECT_EQ(m.course.state.touches, 0);
+}
+
+// The force over the step is the one of its intervals, by Legendre's polynomials.
+TEST(ContactIntervals, GiveTheMomentsOfTheirForces) {
+  constexpr double stiffness = 1e6, w = 20.0, h = step;
+  constexpr int count = 4, points = 4000;
+  const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {stiffness, 100.0}, {}};
+  const ContactIntervals intervals(support, {}, isotropic(w), false, h, 1.0, {});
+  const IntervalTable table = intervals.table(count);
+  MovingContact m;
+  m.path = {{1e-3, 0.0, 0.0}, {0.3, 0.0, 0.0}, {-400.0, 0.0, 0.0}, {}};
+  m.course.past = closed({-1.0, 0.0});
+  intervals.begin(m, {}, table);
+  std::array<double, 4> exact{};
+  for (int i = 0; i < count; ++i) {
+    intervals.find_force(m, table, i);
+    for (int k = 0; k < points; ++k) {
+      const double part = (k + 0.5) / points, x = 2.0 * (i + part) / count - 1.0,
+                   force = m.force.y() + (part - 0.5) * m.growth.y();
+      const double legendre[] = {1.0, x, 0.5 * (3.0 * x * x - 1.0), 0.5 * (5.0 * x * x * x - 3.0 * x)};
+      for (std::size_t d = 0; d < exact.size(); ++d)
+        exact[d] += (static_cast<double>(d) + 0.5) * force * legendre[d] * 2.0 / (count * points);
+    }
+    intervals.move(m, table);
+    ContactIntervals::extrapolate(m, table);
+  }
+  const StepForce& found = m.course.force;
+  const double of[] = {found.mean.y(), found.slope.y(), found.bends[0].y(), found.bends[1].y()};
+  for (std::size_t d = 0; d < exact.size(); ++d) {
+    EXPECT_GT(std::abs(exact[d]), 5e-4 * std::abs(exact[0])) << d;
+    EXPECT_NEAR(of[d], exact[d], 1e-5 * std::abs(exact[0])) << d;
+  }
 }
 
 // A mass on a stop follows its sine: impulse, times of touch and departure of an impact inside one step.
@@ -92,7 +124,7 @@ TEST(ContactIntervals, HoldWholeImpactsOfAFreeMass) {
   for (const auto& [count, tolerance] :
        {std::pair(8, 2.5e-3), std::pair(10, 1e-3), std::pair(20, 1e-4)}) { // w_c dt = 0.625, 0.5, 0.25
     const MovingContact m = through(support, isotropic(w), h, count, {{}, {speed, 0.0, 0.0}, {}, {}}, {});
-    const double error = std::abs(m.course.mean.y() * h * w / (-2.0 * speed) - 1.0);
+    const double error = std::abs(m.course.force.mean.y() * h * w / (-2.0 * speed) - 1.0);
     EXPECT_LT(error, tolerance);
     EXPECT_EQ(m.course.state.touches, 1);
     EXPECT_TRUE(m.course.opened);
@@ -218,8 +250,8 @@ TEST(ContactIntervals, FindTheSameForceAgainFromTheSameCourse) {
                                  m.growth.z(),
                                  m.last.y(),
                                  m.penetration,
-                                 m.course.mean.y(),
-                                 m.course.slope.z(),
+                                 m.course.force.mean.y(),
+                                 m.course.force.slope.z(),
                                  m.course.relaxed,
                                  1.0 * m.throughout,
                                  1.0 * m.course.opened,
