@@ -110,6 +110,27 @@ std::array<bool, 3> tangent_rows(const contact::Support& support) {
   return {true, !y || (y && z), !z || (y && z)};
 }
 
+/// Of those rows that by themselves have a frequency above `slowest`, rad/s: SceneRates::structure_frequency.
+template <class Weight, class Directions>
+double structure_frequency(const Scene& scene, Weight weight, Directions directions, double slowest) {
+  double largest = 0.0;
+  for (const ContactPoint& point : scene.contacts) {
+    const std::array<bool, 3> along = directions(point.support);
+    for (int k = 0; k < 3; ++k) {
+      if (!along[static_cast<std::size_t>(k)])
+        continue;
+      double mobility = 0.0, held = 0.0;
+      point.for_ranges([&](Eigen::Index first, const auto& part) {
+        mobility += part.row(k).squaredNorm();
+        held += part.row(k).cwiseAbs2().dot(scene.system.stiffness.segment(first, part.cols()));
+      });
+      if (weight(point) * mobility > slowest * slowest)
+        largest = std::max(largest, held / mobility);
+    }
+  }
+  return std::sqrt(largest);
+}
+
 /// Largest rate of the structure's own damping, 1/s.
 double structure_rate(const vibration::System& system) {
   if (system.size() == 0)
@@ -173,6 +194,9 @@ SceneRates rates_of(const Scene& scene) {
   SceneRates out;
   out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows));
   out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows));
+  const double slowest = 0.5 * std::max(out.contact_frequency, out.stick_frequency);
+  out.structure_frequency = std::max(structure_frequency(scene, stiffness_n, normal_rows, slowest),
+                                     structure_frequency(scene, stiffness_t, tangent_rows, slowest));
   out.damper_rate = largest_of(scene, damping_t, tangent_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);

@@ -36,6 +36,8 @@ constexpr double macro_step_mode = 0.5;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 /// Steps of splitting that one of collocation takes the time of: measured 0.5 to 0.8 with 1 to 20 supports of 1e5 to 3e7 N/m, 0.8 to 2.1 with stiffer ones.
 constexpr double collocation_cost = 0.7;
+/// Likewise of steps in more than two intervals, where contacts limit them.
+constexpr double collocation_cost_in_intervals = 0.5;
 /// Of the time of splitting: below it collocation is taken, which does not measure its error (replays.hpp).
 constexpr double worth_changing = 0.4;
 /// Beside Hunt and Crossley's dampers, of whose strong impacts collocation has largest forces up to a quarter too high.
@@ -89,7 +91,8 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
   if (c.scheme == SchemeKind::runge_kutta_54)
     return out;
   if (c.table_interval > 0.0)
-    out.push_back({c.table_interval, fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval)});
+    out.push_back({(contacts && c.scheme == SchemeKind::splitting ? table_share : 1.0) * c.table_interval,
+                   fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval)});
   if (c.record_rate > 0.0)
     out.push_back(
         {c.scheme == SchemeKind::splitting
@@ -187,7 +190,7 @@ Limit limit_of_scaled_modes(const StepChoice& c, double modes, double fineness) 
   const bool sticks = c.stick_frequency > c.contact_frequency;
   const double frequency = sticks ? c.stick_frequency : c.contact_frequency;
   const Limit slower{limits_of(c.scheme).highest_mode.at(fineness) / (scaled_above * frequency),
-                     fmt::format("modes up to twice the {} {:.4g} rad/s",
+                     fmt::format("modes up to {:g} times the {} {:.4g} rad/s", scaled_above,
                                  sticks ? "frequency of sticking contacts" : "contact frequency", frequency)};
   const Limit damped{(1.0 - time_round_off) * scaled_up_to_damper / c.normal_damper_rate,
                      "modes that are made heavier beside normal dampers",
@@ -274,7 +277,8 @@ StepChoice cheapest(const Scene& scene, const SceneRates& rates, const StepOptio
     return splitting;
   }
   StepChoice collocation = choice_of(scene, rates, options, SchemeKind::collocation);
-  const double time = collocation_cost * static_cast<double>(collocation.steps) /
+  const double time = (splitting.parts > 2 ? collocation_cost_in_intervals : collocation_cost) *
+                      static_cast<double>(collocation.steps) /
                       static_cast<double>(splitting.steps); // of that of splitting
   if (time < (rates.hunt_crossley ? worth_changing_hunt_crossley : worth_changing)) {
     collocation.scheme_reason =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/step_terms.hpp"
+#include <algorithm>
 
 namespace fretwork::transient {
 
@@ -22,10 +23,17 @@ StepTerm normal_damper_term(const StepChoice& c) {
           .shortest = {finest_for_normal_dampers / c.contact_frequency, unbounded}};
 }
 
-std::array<StepTerm, 2> contact_terms(const StepChoice& c) {
+std::array<StepTerm, 3> contact_terms(const StepChoice& c) {
   const StepBound& bound = limits_of(c.scheme).contact;
+  const double fastest = std::max(c.contact_frequency, c.stick_frequency);
   return {{{"the contact frequency", "w_c h", c.contact_frequency, "rad/s", bound},
-           {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", bound}}};
+           {"the frequency of sticking contacts", "w_t h", c.stick_frequency, "rad/s", bound},
+           {.name = "the structure's frequency at contacts",
+            .symbol = "w_s h",
+            .rate = c.scheme == SchemeKind::splitting ? c.structure_frequency : 0.0,
+            .unit = "rad/s",
+            .bound = structure_at_contacts,
+            .shortest = contact_beside_structure.times(1.0 / fastest)}}};
 }
 
 std::array<StepTerm, 3> damper_terms(const StepChoice& c) {

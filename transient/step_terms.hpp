@@ -17,8 +17,7 @@ struct StepTerm {
   StepBound bound;
   const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
   const char* spoiled = "results"; ///< what cannot be trusted above the bound
-  StepBound shortest{
-      0.0, 0.0}; ///< s, a time: no step need be shorter for this term (nothing is warned about by it)
+  StepBound shortest{0.0, 0.0};    ///< s, a time: no step need be shorter for this term
 };
 
 /// Relative, of what follows from times that are given in decimal numbers.
@@ -29,8 +28,8 @@ constexpr const char *name_of_excitation = "the excitation",
                      *name_of_table_interval = "the shortest interval of a table";
 
 [[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts);
-/// Closed and sticking contacts.
-[[nodiscard]] std::array<StepTerm, 2> contact_terms(const StepChoice& c);
+/// Closed and sticking contacts, and the structure beside them.
+[[nodiscard]] std::array<StepTerm, 3> contact_terms(const StepChoice& c);
 [[nodiscard]] StepTerm normal_damper_term(const StepChoice& c);
 /// Of contacts, and all that only explicit schemes have to resolve.
 [[nodiscard]] std::array<StepTerm, 3> damper_terms(const StepChoice& c);

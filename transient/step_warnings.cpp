@@ -23,10 +23,14 @@ struct Unresolved {
 using AllUnresolved = std::vector<Unresolved>;
 
 void look_at(AllUnresolved& out, const StepChoice& c, const StepTerm& term) {
-  if (const double product = term.rate * c.step; product > term.bound.largest * rounded)
+  const double product = term.rate * c.step;
+  const bool need_be_shorter = term.shortest.largest == unbounded || c.step > term.shortest.largest * rounded;
+  if (need_be_shorter && product > term.bound.largest * rounded)
     out.push_back(
         {fmt::format("{}: {} = {:.3g}, at most {:.4g}", term.name, term.symbol, product, term.bound.largest),
-         term.bound.largest / term.rate, term.spoiled});
+         std::max(term.bound.largest / term.rate,
+                  term.shortest.largest == unbounded ? 0.0 : term.shortest.largest),
+         term.spoiled});
 }
 
 void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, double frequency,

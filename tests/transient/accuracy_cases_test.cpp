@@ -87,7 +87,7 @@ TEST(AccuracyCases, MassesCrossARoundHoleWithinAStep) {
   constexpr double mass = 1.0, stiffness = 1e5, speed = 0.5, mu = 0.3;
   constexpr int starts = 60;
   const double w = std::sqrt(stiffness / mass);
-  for (const double step : {0.65 / w, 1.75 / w})
+  for (const double step : {0.65 / w, 1.75 / w, 3.0 / w})
     for (const double clearances : {1.0, 4.0, 8.0}) { // of a step
       const double gap = speed * step / clearances,
                    duration = step * std::ceil(5.0 * (2.0 * gap / speed + std::numbers::pi / w) / step);

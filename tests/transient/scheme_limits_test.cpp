@@ -62,6 +62,8 @@ TEST(SchemeLimits, OfAllAndOfSplittingAloneAreThoseOfTheManual) {
       fmt::format("{}", mode_without_contacts),
       fmt::format("{}; {}; {}", points_of_lines, points_without_contacts, fewest_points),
       cell(contact_interval),
+      fmt::format("{}; {}", structure_at_contacts.share, contact_beside_structure.share),
+      fmt::format("{}", table_share),
       fmt::format("{}; {}; {}", record_share, record_share_without_contacts, fewest_points_of_records),
       fmt::format("{}; {}", scaled_above, scaled_up_to_damper),
       fmt::format("{}", coarsest_accuracy)};

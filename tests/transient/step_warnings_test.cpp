@@ -29,8 +29,8 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
     EXPECT_TRUE(mentions(list[0], what)) << list[0];
     EXPECT_TRUE(mentions(list[0], "take a smaller step or leave it out"));
   };
-  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(9.5e-3)),
-       "the contact frequency: w_c h = 1.9");
+  only(warnings(scene_with({Circle{0.1}, {8e4}, {}}), splitting(15.5e-3)),
+       "the contact frequency: w_c h = 3.1");
   const Scene dampers = scene_with({Circle{0.1}, {2.0}, {2.0, 4e3, 0.3, 0.3}});
   only(warnings(dampers, splitting(0.25)), "the tangential dampers' rate: r_t h = 500, at most 403.2");
   EXPECT_TRUE(warnings(dampers, splitting(3.25e-3)).empty()); // 2
@@ -38,7 +38,7 @@ TEST(StepWarnings, WarnsWhereAFixedStepDoesNotResolve) {
   only(warnings(dampers, euler(0.6e-3)), "the tangential dampers' rate: r_t h = 1.2");
   const Scene mode = scene_with({Circle{0.1}, {2.0}, {}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
   only(warnings(mode, splitting(3.1e-3)), "the highest mode: w_max h = 3.1");
-  EXPECT_TRUE(warnings(mode, splitting(1.76e-3)).empty()); // rounded
+  EXPECT_TRUE(warnings(mode, splitting(2.01e-3)).empty()); // rounded
   only(warnings(mode, euler(1.9e-3)), "the highest mode: w_max h = 1.9");
   only(warnings(scene_with({Circle{0.1}, {2.0, 4e3}, {}}), euler(0.6e-3)), "the dampers' rate: r_e h = 1.2");
   Scene excited = mass_point(mass, Vec3::Zero(), 1.0);
@@ -51,25 +51,36 @@ TEST(StepWarnings, SayOnceWhichStepResolvesEverything) {
   const auto given = [](const Scene& scene, double step) { return choose_step(scene, splitting(step)); };
   Scene scene = scene_with({Circle{0.1}, {8e4}, {8e4, 0.0, 0.3, 0.3}}, 1.0, Vec3(0, 2.0 * 1e6, 0));
   scene.loads = {force_on(mass, Vec3(1, 0, 0), signals::Harmonic{1.0, 25.0})};
-  const StepChoice choice = given(scene, 0.01);
+  const StepChoice choice = given(scene, 0.016);
   ASSERT_EQ(choice.warnings.size(), 1u);
   EXPECT_EQ(choice.warnings[0].find(
-                "the step 0.01 s does not resolve the contact frequency: w_c h = 2, at most 1.75; "),
+                "the step 0.016 s does not resolve the contact frequency: w_c h = 3.2, at most 3; "),
             0u)
       << choice.warnings[0];
   for (const char* part :
-       {"; the frequency of sticking contacts: w_t h = ", "; the highest mode: w_max h = 10, at most 1.75; ",
-        "the excitation: 4 steps a period, at least 10 for results that can be trusted; ",
-        "take a smaller step or leave it out; 0.00175 s would do for all of them"})
+       {"; the frequency of sticking contacts: w_t h = ", "; the highest mode: w_max h = 16, at most 2; ",
+        "the excitation: 2.5 steps a period, at least 10 for results that can be trusted; ",
+        "take a smaller step or leave it out; 0.002 s would do for all of them"})
     EXPECT_TRUE(mentions(choice.warnings[0], part)) << part << " in " << choice.warnings[0];
-  EXPECT_TRUE(given(scene, 0.00175).warnings.empty());
+  EXPECT_TRUE(given(scene, 0.002).warnings.empty());
   // one thing alone
-  const Scene near = scene_with({Circle{0.1}, {8e4}, {}}, 1.0, Vec3(0, mass * std::pow(0.8 * 200.0, 2), 0));
-  const StepChoice one = given(near, 9e-3);
+  const Scene near = scene_with({Circle{0.1}, {8e4}, {}}, 1.0, Vec3(0, mass * std::pow(0.2 * 200.0, 2), 0));
+  const StepChoice one = given(near, 15.5e-3);
   ASSERT_EQ(one.warnings.size(), 1u);
-  EXPECT_TRUE(mentions(one.warnings[0], "leave it out; 0.00875 s would do")) << one.warnings[0];
+  EXPECT_TRUE(mentions(one.warnings[0], "leave it out; 0.015 s would do")) << one.warnings[0];
   EXPECT_FALSE(mentions(one.warnings[0], "of them"));
-  EXPECT_TRUE(given(near, 8.75e-3).warnings.empty());
+  EXPECT_TRUE(given(near, 15e-3).warnings.empty());
+  // no step need be shorter for the structure than w_c h = 1.75
+  for (const auto& [own, longest] : {std::pair(0.45, 1e-2), {0.9, 8.75e-3}}) {
+    const Scene beside =
+        scene_with({Circle{0.1}, {8e4}, {}}, 1.0, Vec3(0, mass * std::pow(own * 200.0, 2), 0));
+    EXPECT_TRUE(given(beside, longest).warnings.empty()) << own;
+    const StepChoice above = given(beside, 1.05 * longest);
+    ASSERT_EQ(above.warnings.size(), 1u) << own;
+    EXPECT_TRUE(mentions(above.warnings[0], "the structure's frequency at contacts: w_s h = "));
+    EXPECT_TRUE(mentions(above.warnings[0], own < 0.5 ? "0.01 s would do" : "0.00875 s would do"))
+        << above.warnings[0];
+  }
 }
 
 TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
@@ -91,9 +102,9 @@ TEST(StepWarnings, FollowAllModesBesideHuntAndCrossleysDampers) {
   scene.system.stiffness.setConstant(1e6); // 1000 rad/s, above twice w_c = 200
   expect_governed(scene, splitting(), mode_share / 1000.0, "the highest mode 1000 rad/s");
   EXPECT_EQ(choose_step(scene, splitting()).scaled, 0);
-  const StepChoice given = choose_step(scene, splitting(2e-3));
+  const StepChoice given = choose_step(scene, splitting(2.3e-3));
   ASSERT_EQ(given.warnings.size(), 1u);
-  EXPECT_TRUE(mentions(given.warnings[0], "the highest mode: w_max h = 2"));
+  EXPECT_TRUE(mentions(given.warnings[0], "the highest mode: w_max h = 2.3"));
 }
 
 TEST(StepWarnings, NamesNormalDampersThatNoStepResolves) {

@@ -51,7 +51,7 @@ struct SchemeLimits {
   /// r_n dt: a contact that its normal damper stops, of schemes that have it implicitly; others have it in r_e. With splitting the force falls within an
   /// interval as a parabola up to contact::most_parabolic; collocation leaves a tenth of the speed of a mass at 4, where 0.02 is right.
   StepBound normal_damper = {};
-  /// w_max h, with contacts. A mode takes 88 % of an impulse that is short in a step of splitting at 1.75, which resonates with modes at pi;
+  /// w_max h, with contacts. At 2 a mode takes an impulse that is short in a step of splitting to 5 %, where its instant is known; at pi that resonates with modes;
   /// energy_conserving has the same resonance; Euler's limit of stability is 2, that of devogelaere 2.8.
   StepBound highest_mode = {};
   /// In a period of harmonic and random loads on contacts, at an accuracy of 0.01. splitting gives their polygons corners that make up for what lines lose (vibration/load_sum.hpp):
@@ -65,10 +65,10 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
     {.scheme = SchemeKind::splitting,
      .exact_modes = true,
      .intervals = 64,
-     .contact = {1.75, 1.75},
+     .contact = {3.0, 3.0},
      .tangential_damper = {6.3, 6.3},
      .normal_damper = {unbounded, 1.8},
-     .highest_mode = {1.75, 1.75},
+     .highest_mode = {2.0, 2.0},
      .points_per_period = fewest_points,
      .by_normal_damper = "largest and rms forces"},
     {.scheme = SchemeKind::collocation,
@@ -95,13 +95,19 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
     {.scheme = SchemeKind::runge_kutta_54}, // by its tolerance
 }};
 
-/// Of splitting alone. w_c dt and w_t dt of its intervals, by accuracy as w_c h: two in the longest step. Contacts whose error replays
+/// Of splitting alone. w_s h, of the structure at its contacts, and w_c h (w_t h) up to which no step need be shorter for it: above both, what the modes hold back of a
+/// force within the step is no cubic any more, and impacts change the energy by 1.5 % at w_c h = 3, w_s h = 1.1; within, by 0.2 %.
+constexpr StepBound structure_at_contacts{0.9, 0.9}, contact_beside_structure{1.75, 1.75};
+/// w_c dt and w_t dt of its intervals, by accuracy as w_c h: three in the longest step. Contacts whose error replays
 /// (splitting/replays.hpp) find above the accuracy move in up to 16 times as many.
-constexpr StepBound contact_interval{0.875, 0.875};
+constexpr StepBound contact_interval{1.0, 1.0};
 /// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp); a step is short enough to follow those below.
-constexpr double scaled_above = 2.0;
+constexpr double scaled_above = 2.25;
 /// r_n h up to which modes are made heavier: the force of an impact that a damper stops within the step begins with a jump, which moves all modes.
 constexpr double scaled_up_to_damper = 3.0;
+/// Steps over the shortest interval of a table that is no record: lines between the ends of steps cut tips that lie inside of them, and a contact of w_c h = 3 shows it
+/// (at 1 its largest force comes out 14 % wrong, at 0.5 4 %).
+constexpr double table_share = 0.5;
 /// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
 /// fewest steps in its period: 0.8 %.
 constexpr double record_share = 1.0, record_share_without_contacts = 0.5, fewest_points_of_records = 4.0;

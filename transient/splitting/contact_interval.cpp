@@ -18,8 +18,8 @@ static_assert(limits_of(SchemeKind::splitting).normal_damper.largest < contact::
 constexpr double longest_way = 1.0;
 /// Of a step in which a contact meets a corner of its obstacle: times as many intervals, the fewest and the most of them.
 constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128;
-/// Of one in which it meets another side: times as many as the clearances that it moves by, so many at most; the fewest intervals.
-constexpr int most_at_side = 16, least_at_side = 4;
+/// Of one in which it meets another side: as many for each clearance that it moves by, in a step of one interval and in others; the fewest.
+constexpr int at_side_alone = 1, at_side = 2, least_at_side = 4;
 /// Cosine of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
 constexpr double least_cosine = 0.9, least_way = 0.4;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
@@ -81,9 +81,8 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
 
 /// @param way  m, in the step
 int ContactIntervals::intervals_at_side(int parts, double way) const {
-  const int times =
-      way < most_at_side * clearance_ ? static_cast<int>(std::ceil(way / clearance_)) : most_at_side;
-  return std::clamp(times * parts, least_at_side, most_intervals);
+  const double needed = (parts > 1 ? at_side : at_side_alone) * way / clearance_;
+  return static_cast<int>(std::ceil(std::clamp(needed, 1.0 * least_at_side, 1.0 * most_intervals)));
 }
 
 /// For dampers of Hunt and Crossley, at the largest penetration that is ahead under the forces held.

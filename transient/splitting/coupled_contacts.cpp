@@ -263,7 +263,7 @@ void CoupledContacts::hold_back(int first, double dt) {
 }
 
 /// The contacts of a group in an interval: one after the other, and those again whose force what the others have done since would change by a
-/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 0.875, that is so in at most 2 % of the intervals (tubes of bench_statistics).
+/// share of all changes that would let them diverge. Without strong dampers, and up to w_c dt = 1, that is so in at most 2 % of the intervals (tubes of bench_statistics).
 void CoupledContacts::find_forces_together(int first, int index, int count) {
   const double left_out = most_left_out * std::min(1.0, few_intervals / count);
   double change = 0.0; // N, the largest

@@ -301,7 +301,9 @@ TEST(ContactIntervals, AreShorterWhereAHoleIsCrossed) {
     EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), path(2.2)), 4);
     EXPECT_EQ(intervals.least_count(1, closed({-1.0, 0.0}), path(8.8)), 9);
     EXPECT_EQ(intervals.least_count(2, closed({-1.0, 0.0}), path(8.8)), 18);
-    EXPECT_EQ(intervals.least_count(2, closed({-1.0, 0.0}), path(80.0)), 32);
+    EXPECT_EQ(intervals.least_count(3, closed({-1.0, 0.0}), path(8.8)), 18);
+    EXPECT_EQ(intervals.least_count(24, closed({-1.0, 0.0}), path(8.8)), 24);
+    EXPECT_EQ(intervals.least_count(2, closed({-1.0, 0.0}), path(80.0)), 64);
   }
 }
 

@@ -90,7 +90,7 @@ TEST(CoupledContacts, CloseWhereOthersPushThemIn) {
     point.b.row(1) << 1.0 / std::sqrt(mass), x / std::sqrt(inertia);
     s.contacts.push_back(point);
   }
-  const double longest = 1.25 / choose_step(s, splitting()).contact_frequency;
+  const double longest = 1.4 / choose_step(s, splitting()).contact_frequency;
   const Eigen::MatrixXd exact = exact_of(s);
   for (const double shift : {1.0, 0.93, 0.86, 0.77}) { // other places of the touch in a step
     const History run = simulate(s, splitting(longest * shift), every);
