@@ -315,11 +315,10 @@ private:
     }
     ContactLosses losses;
     double brought = 0.0;
-    if (s.steps == 1)
-      find_bow(s, to);
     s.pushed = !near_.empty();
     if (s.pushed) {
       ++counts_.evaluations;
+      find_bow(s, to);
       coupled_.make({start_, end_, bow_}, near_, s.trial, losses);
       s.pushed = forces_.any_held() || !s.trial.active.empty();
       if (s.pushed)
@@ -397,12 +396,11 @@ private:
 
   void prepare_output(Step& s, const Step& to) {
     modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
-    const double eighth =
-        0.125 *
-        s.length; // of contacts: by the cubic through both ends, and what bends beyond it where the step shows it
+    // contacts: by the cubic through both ends, and the quartic where they are near
+    const double eighth = 0.125 * s.length;
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    if (s.steps == 1 && modes_.has_bow())
+    if (!near_.empty() && modes_.has_bow())
       for (std::size_t lane = 0; lane < s.u.size(); ++lane)
         s.u[lane] += middle_of_bow * bow_[lane];
     for (std::size_t i = 0; i < mode_scales_.size(); ++i)
