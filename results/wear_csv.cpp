@@ -36,16 +36,17 @@ ScarCells cells_of(const WornScar& s) {
   return {value_and_bounds({s.work_rate.value, s.work_rate.low, s.work_rate.high}),
           fmt::format("{},{},{},{}", value_and_bounds(s.volume.last()), value_and_bounds(s.depth.last()),
                       value_and_bounds(s.support_volume.last()), value_and_bounds(s.support_depth.last())),
-          fmt::format("{},{},{},{},{},{}", s.scar_width, s.scar_length, s.life.end,
+          fmt::format("{},{},{},{},{},{},{},{}", s.scar_width, s.scar_length, s.life.end,
                       value_and_bounds(s.life.years), s.support_life.end,
-                      value_and_bounds(s.support_life.years))};
+                      value_and_bounds(s.support_life.years), s.initial_depth, s.initial_years)};
 }
 
 ScarCells scar_heads() {
   return {bounds_head("work_rate", "W"),
           fmt::format("{},{},{},{}", bounds_head("volume", "m3"), bounds_head("depth", "m"),
                       bounds_head("support_volume", "m3"), bounds_head("support_depth", "m")),
-          fmt::format("scar_width [m],scar_length [m],life_end,{},support_life_end,{}",
+          fmt::format("scar_width [m],scar_length [m],life_end,{},support_life_end,{},initial_depth "
+                      "[m],initial_years [years]",
                       bounds_head("life", "years"), bounds_head("support_life", "years"))};
 }
 

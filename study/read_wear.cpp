@@ -247,8 +247,8 @@ void read_initial_wear(const TableReader& table, Wear& wear) {
   if (!found)
     return;
   const auto share = [](const Value& value, const std::string& path) {
-    const double out = to_number(value, path, {Range::at_least_zero});
-    if (out >= 1.0)
+    const double out = value.string() ? 1.0 : to_number(value, path, {Range::at_least_zero});
+    if (out >= 1.0) // "20%" and metres too
       fail(value, path, "a share of the wall below 1 is expected, such as 0.2 for 20 %");
     return out;
   };

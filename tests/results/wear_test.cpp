@@ -341,12 +341,16 @@ TEST(ExportCsv, HasFilesOfWear) {
   const Folder folder;
   RunResults results = worn(2);
   results.wear->supports[1].source = "a \"b\", c";
+  results.wear->supports[0].initial_depth = 2.5e-4;
+  results.wear->supports[0].initial_years = 12.5;
   export_csv(folder.path(), results);
   const auto table = lines_of(folder / "wear.csv");
   ASSERT_EQ(table.size(), 3u);
   EXPECT_THAT(table[0],
               HasSubstr("support,tube,law,coefficient [m2/N],source,work_rate [W],work_rate_low [W]"));
   EXPECT_THAT(table[1], HasSubstr("\"tsp1\",0,archard,2e-14,"));
+  EXPECT_THAT(table[0], testing::EndsWith(",initial_depth [m],initial_years [years]"));
+  EXPECT_THAT(table[1], testing::EndsWith(",0.00025,12.5"));
   EXPECT_THAT(table[2], HasSubstr("\"a \"\"b\"\", c\""));
   EXPECT_EQ(lines_of(folder / "gap_opening.csv").size(), 1u + 2u * 2u);
   EXPECT_EQ(lines_of(folder / "tsp1_wear.csv").size(), 42u);

@@ -168,6 +168,8 @@ TEST(MessagesOfWear, NameTheKeyTheValueAndTheCure) {
       {k + "limit = 0", "wear.0.limit = 0: a number > 0"},
       {k + "initial_wear = 20",
        "wear.0.initial_wear = 20: a share of the wall below 1 is expected, such as 0.2"},
+      {k + "initial_wear = \"20%\"",
+       "wear.0.initial_wear = \"20%\": a share of the wall below 1 is expected, such as 0.2"},
       {k + "initial_wear = -0.1", "wear.0.initial_wear = -0.1: a number >= 0"},
       {k + "initial_wear = { \"+y\" = 1.0 }", "wear.0.initial_wear.+y = 1: a share of the wall below 1"},
       {k + "support_limit = 0", "wear.0.support_limit = 0: a number > 0 in m is expected"},
