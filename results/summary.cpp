@@ -240,6 +240,7 @@ Json transient(const TransientTotals& t, const RunResults& results) {
           {"resolution",
            {{"w_c_h", number(t.resolution.contact)},
             {"w_t_h", number(t.resolution.stick)},
+            {"w_s_h", number(t.resolution.structure)},
             {"r_t_h", number(t.resolution.damper)},
             {"w_max_h", number(t.resolution.highest_mode)}}},
           {"scaled_modes", {{"count", t.scaled_modes}, {"frequency_hz", number(t.fastest_hz)}}},

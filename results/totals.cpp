@@ -66,6 +66,7 @@ TransientTotals add_up(const std::vector<TransientFacts>& transients) {
     Resolution& r = sum.resolution;
     r.contact = std::max(r.contact, choice.contact_frequency * h);
     r.stick = std::max(r.stick, choice.stick_frequency * h);
+    r.structure = std::max(r.structure, choice.structure_frequency * h);
     r.damper = std::max(r.damper, choice.damper_rate * h);
     r.highest_mode = std::max(r.highest_mode, choice.highest_mode * h);
     sum.scaled_modes += choice.scaled;

@@ -31,7 +31,7 @@ struct EnergyTotals {
 
 /// The longest step times what it has to resolve (transient/step_rule.hpp); the largest of the structures.
 struct Resolution {
-  double contact = 0.0, stick = 0.0, damper = 0.0, highest_mode = 0.0;
+  double contact = 0.0, stick = 0.0, structure = 0.0, damper = 0.0, highest_mode = 0.0;
 };
 
 struct TransientTotals {

@@ -208,10 +208,11 @@ TEST(Summary, SaysWhatTheStepResolves) {
   RunResults results = made_up({.structures = 2}); // steps of 2.5e-5 s, w_c = 2e4 rad/s
   results.transients[1].choice.contact_frequency = 1.0;
   results.transients[1].choice.stick_frequency = 4e3;
+  results.transients[1].choice.structure_frequency = 800.0;
   results.transients[1].choice.damper_rate = 8e3;
   results.transients[1].report.counts.step_max = 1e-3;
   EXPECT_EQ(summary_of(results)["transient"]["resolution"],
-            Json::parse(R"({"w_c_h": 0.5, "w_t_h": 4.0, "r_t_h": 8.0, "w_max_h": 1.256})"));
+            Json::parse(R"({"w_c_h": 0.5, "w_t_h": 4.0, "w_s_h": 0.8, "r_t_h": 8.0, "w_max_h": 1.256})"));
 }
 
 TEST(Summary, TellsAVerificationFigureByFigure) {
