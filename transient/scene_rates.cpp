@@ -13,6 +13,9 @@ namespace {
 /// A table whose points are closer than this share of the run does not rule the step: its mean over steps is taken.
 constexpr double finest_table = 1e-6;
 
+/// Of the fastest contact by itself: the frequency of one that a step of w_c h = 3 at that resolves to 1.5, whatever the structure does.
+constexpr double slow_beside_fastest = 0.5;
+
 /// A row of a contact times the root of its weight.
 struct WeightedRow {
   const ContactPoint* point;
@@ -110,10 +113,15 @@ std::array<bool, 3> tangent_rows(const contact::Support& support) {
   return {true, !y || (y && z), !z || (y && z)};
 }
 
-/// Of those rows that by themselves have a frequency above `slowest`, rad/s: SceneRates::structure_frequency.
+/// What a contact has along one direction by itself.
+struct OwnRates {
+  double contact; ///< rad2/s2, of its stiffness
+  double
+      structure; ///< rad2/s2, mean of the squares of the modes' frequencies by their shares of its mobility
+};
+
 template <class Weight, class Directions>
-double structure_frequency(const Scene& scene, Weight weight, Directions directions, double slowest) {
-  double largest = 0.0;
+void add_own_rates(const Scene& scene, Weight weight, Directions directions, std::vector<OwnRates>& out) {
   for (const ContactPoint& point : scene.contacts) {
     const std::array<bool, 3> along = directions(point.support);
     for (int k = 0; k < 3; ++k) {
@@ -124,10 +132,20 @@ double structure_frequency(const Scene& scene, Weight weight, Directions directi
         mobility += part.row(k).squaredNorm();
         held += part.row(k).cwiseAbs2().dot(scene.system.stiffness.segment(first, part.cols()));
       });
-      if (weight(point) * mobility > slowest * slowest)
-        largest = std::max(largest, held / mobility);
+      if (weight(point) * mobility > 0.0)
+        out.push_back({weight(point) * mobility, held / mobility});
     }
   }
+}
+
+/// SceneRates::structure_frequency.
+double structure_frequency(const std::vector<OwnRates>& rates) {
+  double fastest = 0.0, largest = 0.0;
+  for (const OwnRates& own : rates)
+    fastest = std::max(fastest, own.contact);
+  for (const OwnRates& own : rates)
+    if (own.contact >= slow_beside_fastest * slow_beside_fastest * fastest)
+      largest = std::max(largest, own.structure);
   return std::sqrt(largest);
 }
 
@@ -194,9 +212,10 @@ SceneRates rates_of(const Scene& scene) {
   SceneRates out;
   out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows));
   out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows));
-  const double slowest = 0.5 * std::max(out.contact_frequency, out.stick_frequency);
-  out.structure_frequency = std::max(structure_frequency(scene, stiffness_n, normal_rows, slowest),
-                                     structure_frequency(scene, stiffness_t, tangent_rows, slowest));
+  std::vector<OwnRates> own;
+  add_own_rates(scene, stiffness_n, normal_rows, own);
+  add_own_rates(scene, stiffness_t, tangent_rows, own);
+  out.structure_frequency = structure_frequency(own);
   out.damper_rate = largest_of(scene, damping_t, tangent_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);

@@ -13,7 +13,7 @@ struct SceneRates {
   double contact_frequency = 0.0;
   double stick_frequency = 0.0; ///< w_t, rad/s, the same with K_T over the tangent directions
   /// w_s, rad/s, of the structure where the fastest contacts touch it: the rms of the frequencies of the modes by their shares of a contact's mobility along
-  /// one direction, the largest of contacts that by themselves have half of the larger of w_c and w_t.
+  /// one direction, the largest of contacts that by themselves, closed or sticking, have half of the largest frequency of one.
   double structure_frequency = 0.0;
   double damper_rate = 0.0; ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2
   double normal_damper_rate =

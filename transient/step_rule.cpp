@@ -91,8 +91,8 @@ std::vector<Limit> load_limits(const StepChoice& c, bool contacts, double finene
   if (c.scheme == SchemeKind::runge_kutta_54)
     return out;
   if (c.table_interval > 0.0)
-    out.push_back({(contacts && c.scheme == SchemeKind::splitting ? table_share : 1.0) * c.table_interval,
-                   fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval)});
+    out.push_back(
+        {longest_for_tables(c), fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval)});
   if (c.record_rate > 0.0)
     out.push_back(
         {c.scheme == SchemeKind::splitting

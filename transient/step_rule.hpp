@@ -3,10 +3,11 @@
 /// The time step and its reason. Names of bounds are those of the table in scene/scheme_limits.hpp, a row for each scheme, with their values and sources.
 ///
 ///     h = min{ contact/w_c, contact/w_t, intervals tangential_damper/r_t, tangential_damper/r_e, highest_mode/w_max,
-///              max(intervals normal_damper/r_n, f finest_for_normal_dampers/w_c) },
+///              max(intervals normal_damper/r_n, f finest_for_normal_dampers/w_c),
+///              max(structure_at_contacts/w_s, contact_beside_structure/max(w_c, w_t)) },
 ///     each bound min(f share, largest), f = (min(accuracy, coarsest_accuracy)/accuracy_of_shares)^1/2
 /// over the terms that exist (step_terms.hpp), with:
-///     w_c, w_t, r_t, r_n, w_max   scene_rates.hpp
+///     w_c, w_t, w_s, r_t, r_n, w_max   scene_rates.hpp
 ///     r_e                         explicit_damper_rate; of devogelaere also the largest K_T/C_T of a sliding spring
 /// Dampers of contacts are resolved by the intervals of splitting, the least number that keeps them, and contact_interval for w_c and w_t, in the step. A normal damper
 /// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step (step_warnings.hpp).
@@ -21,7 +22,7 @@
 /// runge_kutta_54 chooses its steps by its tolerance: `step` is the longest, from the excitation and duration/200.
 ///
 /// Loads: max(points/f, fewest_points) steps in the shortest period of the excitation, points_per_period of the table (points_of_lines for sampled
-/// forces, points_without_contacts); never above the shortest interval of a table (whose points runge_kutta_54 ends its steps at); records by
+/// forces, points_without_contacts); never above the shortest interval of a table (longest_for_tables; whose points runge_kutta_54 ends its steps at); records by
 /// record_share, with others than splitting by points. Nor is a step above duration/20000, where
 /// steps are expensive, s = modes + 40 contacts above 100, duration/max(2000, 2e8/s^2): so many steps take milliseconds to some hundredths of a second.
 ///

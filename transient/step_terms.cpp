@@ -4,6 +4,14 @@
 
 namespace fretwork::transient {
 
+double longest_for_tables(const StepChoice& c) {
+  if (c.scheme != SchemeKind::splitting)
+    return c.table_interval;
+  const double contacts = std::max(c.contact_frequency, c.stick_frequency);
+  return std::max(table_share * c.table_interval,
+                  std::min(c.table_interval, contact_beside_tables / contacts)); // infinite without contacts
+}
+
 StepTerm mode_term(const StepChoice& c, bool contacts) {
   const SchemeLimits& limits = limits_of(c.scheme);
   StepTerm out{"the highest mode", "w_max h", c.highest_mode, "rad/s", limits.highest_mode};
@@ -33,7 +41,8 @@ std::array<StepTerm, 3> contact_terms(const StepChoice& c) {
             .rate = c.scheme == SchemeKind::splitting ? c.structure_frequency : 0.0,
             .unit = "rad/s",
             .bound = structure_at_contacts,
-            .shortest = contact_beside_structure.times(1.0 / fastest)}}};
+            .shortest = contact_beside_structure.times(1.0 / fastest),
+            .never_warned = contact_beside_structure.largest / fastest}}};
 }
 
 std::array<StepTerm, 3> damper_terms(const StepChoice& c) {

@@ -5,6 +5,7 @@
 #pragma once
 #include "transient/scene/scheme_limits.hpp"
 #include "transient/step_choice.hpp"
+#include <algorithm>
 #include <array>
 
 namespace fretwork::transient {
@@ -17,7 +18,10 @@ struct StepTerm {
   StepBound bound;
   const char* cure = "";           ///< what makes the step longer, after "resolved for an accuracy of 0.01"
   const char* spoiled = "results"; ///< what cannot be trusted above the bound
-  StepBound shortest{0.0, 0.0};    ///< s, a time: no step need be shorter for this term
+  StepBound shortest{0.0, 0.0};    ///< s, a time: no automatic step need be shorter for this term
+  double never_warned = 0.0;       ///< s, a given step up to it resolves the term whatever its bound
+  /// s, the longest step that is not warned about.
+  [[nodiscard]] double longest() const { return std::max(bound.largest / rate, never_warned); }
 };
 
 /// Relative, of what follows from times that are given in decimal numbers.
@@ -27,6 +31,8 @@ constexpr const char *name_of_excitation = "the excitation",
                      *name_of_record_band = "the band of a record below the highest mode",
                      *name_of_table_interval = "the shortest interval of a table";
 
+/// s, the longest step for tables that are no records, of which there are some.
+[[nodiscard]] double longest_for_tables(const StepChoice& c);
 [[nodiscard]] StepTerm mode_term(const StepChoice& c, bool contacts);
 /// Closed and sticking contacts, and the structure beside them.
 [[nodiscard]] std::array<StepTerm, 3> contact_terms(const StepChoice& c);

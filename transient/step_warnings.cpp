@@ -23,14 +23,10 @@ struct Unresolved {
 using AllUnresolved = std::vector<Unresolved>;
 
 void look_at(AllUnresolved& out, const StepChoice& c, const StepTerm& term) {
-  const double product = term.rate * c.step;
-  const bool need_be_shorter = term.shortest.largest == unbounded || c.step > term.shortest.largest * rounded;
-  if (need_be_shorter && product > term.bound.largest * rounded)
-    out.push_back(
-        {fmt::format("{}: {} = {:.3g}, at most {:.4g}", term.name, term.symbol, product, term.bound.largest),
-         std::max(term.bound.largest / term.rate,
-                  term.shortest.largest == unbounded ? 0.0 : term.shortest.largest),
-         term.spoiled});
+  if (term.rate > 0.0 && c.step > term.longest() * rounded)
+    out.push_back({fmt::format("{}: {} = {:.3g}, at most {:.4g}", term.name, term.symbol, term.rate * c.step,
+                               term.bound.largest),
+                   term.longest(), term.spoiled});
 }
 
 void look_at_points(AllUnresolved& out, const StepChoice& c, const char* name, double frequency,
@@ -47,8 +43,9 @@ AllUnresolved unresolved(const StepChoice& c) {
   for (const StepTerm& term : damper_terms(c))
     look_at(out, c, term);
   look_at(out, c, mode_term(c, true));
-  if (c.table_interval > 0.0 && c.step > c.table_interval * (1.0 + time_round_off))
-    out.push_back({fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval), c.table_interval});
+  if (const double longest = longest_for_tables(c);
+      c.table_interval > 0.0 && c.step > longest * (1.0 + time_round_off))
+    out.push_back({fmt::format("{} ({:.4g} s)", name_of_table_interval, c.table_interval), longest});
   if (c.step > c.record_interval * (1.0 + time_round_off))
     look_at_points(out, c, name_of_record_band, c.record_rate / (2.0 * std::numbers::pi),
                    c.scheme == SchemeKind::splitting ? fewest_points_of_records : fewest_points);

@@ -45,7 +45,7 @@ std::array<Complex, 5> phi(Complex x) {
 /// Of forces by Legendre's polynomials of degree 0 to 3 y takes, over t, phi_1, 2 phi_2 - phi_1, phi_1 - 6 phi_2 + 12 phi_3 and
 /// 120 phi_4 - 60 phi_3 + 12 phi_2 - phi_1 times them. Real shares of the first two, which are the same for the conjugate coordinate.
 std::array<LinearForce, 2> linear_for_bends_of(Complex l, double t) {
-  if (!(std::abs(l) * t < longest_shown))
+  if (!(std::abs(l) * t < highest_followed))
     return {};
   const std::array<Complex, 5> f = phi(l * t);
   const Complex slope = 2.0 * f[2] / f[1] - 1.0;

@@ -15,9 +15,9 @@ constexpr double least_bow = 0.1;
 /// Of a mode that another flow moves.
 constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
 
-/// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none where it does not show.
+/// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none above (the matrix is singular at 2 pi).
 std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, double h) {
-  if (std::sqrt(k) * h > longest_shown)
+  if (std::sqrt(k) * h > highest_followed)
     return {};
   const double det = s.qf0 * s.vf1 - s.qf1 * s.vf0;
   return {s.vf1 / det, -s.qf1 / det, -s.vf0 / det, s.qf0 / det};
@@ -141,7 +141,7 @@ void ModalFlow::bow(const State& from, const kernels::Array& load0, const kernel
 void ModalFlow::linear_for_bends(BentForce& by) const {
   for (Eigen::Index j = 0; j < system_.size(); ++j) {
     const double k = lone_k_(j), c = lone_c_(j), wh = std::sqrt(k) * h_;
-    if (!(wh > least_bow && wh < longest_shown))
+    if (!(wh > least_bow && wh < highest_followed))
       continue;
     const std::array<LinearForce, 2> of = vibration::linear_for_bends(k, c, h_, step_coefficients(k, c, h_));
     for (std::size_t i = 0; i < by.size(); ++i) {

@@ -63,8 +63,8 @@ public:
            const kernels::Array& force, kernels::Array& bow) const;
   /// Whether any mode has one.
   [[nodiscard]] bool has_bow() const { return has_bow_; }
-  /// Of each mode over one step the linear forces that leave it where bent ones do (linear_for_bends): 0 of modes without bow, and of those that half a
-  /// period of is shorter than the step; of coupled ones as if they were alone.   @param by  padded
+  /// Of each mode over one step the linear forces that leave it where bent ones do (linear_for_bends): 0 of modes below w h = 0.1 and of those
+  /// above highest_followed; of modes that a damping matrix couples as if they were alone.   @param by  padded
   void linear_for_bends(BentForce& by) const;
   [[nodiscard]] double energy(const State& state) const;
   /// Numbers of modes, padded.

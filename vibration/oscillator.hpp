@@ -25,7 +25,7 @@ struct Impulse {
 [[nodiscard]] kernels::StepCoefficients step_coefficients(double k, double c, double h);
 
 /// w h up to which the end of a step tells what a force does to a mode within it: above, half a period is shorter than the step.
-inline constexpr double longest_shown = 3.0;
+inline constexpr double highest_followed = 3.0;
 /// A force mean - slope to mean + slope, linear over a step.
 struct LinearForce {
   double mean, slope;
@@ -33,7 +33,7 @@ struct LinearForce {
 /// Those that leave the mode where forces by Legendre's polynomials of degree 2 and 3 leave it, 6 s^2 - 6 s + 1 and 20 s^3 - 30 s^2 + 12 s - 1 with
 /// s = t/h. Their mean and first moment are 0: a mode that is slow in the step does not feel them. With Q_j the response to s^j:
 /// Q_j' = j Q_(j-1)/h, k Q_j = 1 - c Q_j' - j (j-1) Q_(j-2)/h^2.
-/// @param k, c  0.1 <= sqrt(k) h < longest_shown: below, closed forms cancel   @param s  step_coefficients(k, c, h)
+/// @param k, c  0.1 <= sqrt(k) h < highest_followed, c h <= 1e3: else closed forms cancel   @param s  step_coefficients(k, c, h)
 [[nodiscard]] std::array<LinearForce, 2> linear_for_bends(double k, double c, double h,
                                                           const kernels::StepCoefficients& s);
 

@@ -63,7 +63,7 @@ TEST(SchemeLimits, OfAllAndOfSplittingAloneAreThoseOfTheManual) {
       fmt::format("{}; {}; {}", points_of_lines, points_without_contacts, fewest_points),
       cell(contact_interval),
       fmt::format("{}; {}", structure_at_contacts.share, contact_beside_structure.share),
-      fmt::format("{}", table_share),
+      fmt::format("{}; {}", table_share, contact_beside_tables),
       fmt::format("{}; {}; {}", record_share, record_share_without_contacts, fewest_points_of_records),
       fmt::format("{}; {}", scaled_above, scaled_up_to_damper),
       fmt::format("{}", coarsest_accuracy)};

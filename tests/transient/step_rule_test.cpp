@@ -154,7 +154,7 @@ TEST(StepRule, LetsStatisticsSeeTheModesWithoutContacts) {
 TEST(StepRule, FollowsTheIntervalsOfATableButNotItsJumps) {
   Scene scene = scene_with({Circle{0.1}, {2.0}, {}}, 1000.0);
   scene.loads = {force_on(mass, Vec3(1, 0, 0), Table{{0.0, 3.0, 3.01, 3.01, 9.0}, {0, 0, 1, 2, 0}})};
-  expect_governed(scene, splitting(), table_share * 0.01, "the shortest interval of a table");
+  expect_governed(scene, splitting(), 0.01, "the shortest interval of a table");
   scene.loads = {
       force_on(mass, Vec3(1, 0, 0), Table{{0.0, 3.0, 3.0 + 1e-5, 9.0}, {0, 0, 1, 0}})}; // all but a jump
   EXPECT_TRUE(mentions(choose_step(scene, splitting()).reason, "at least 20000 steps"));
@@ -424,6 +424,25 @@ TEST(StepRule, CountsAllContactsTogether) {
   EXPECT_NEAR(two.contact_frequency / one.contact_frequency, std::sqrt(2.0), round_off);
   EXPECT_NEAR(two.stick_frequency / one.stick_frequency, std::sqrt(2.0), round_off);
   EXPECT_NEAR(two.damper_rate / one.damper_rate, 2.0, round_off);
+}
+
+TEST(StepRule, KnowsTheFrequencyOfTheStructureAtItsContacts) {
+  const auto of = [](const Scene& scene) { return choose_step(scene, splitting()).structure_frequency; };
+  Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * 900.0, 0)); // 30 rad/s along y
+  EXPECT_NEAR(of(scene), 30.0, 1e-10);
+  scene.contacts.resize(5, scene.contacts[0]); // of one node
+  EXPECT_NEAR(of(scene), 30.0, 1e-10);
+  scene.contacts.resize(1);
+  scene.contacts.push_back(scene.contacts[0]); // slow, and alone along y
+  scene.contacts[0].b.row(1).setZero();
+  scene.contacts[1].b.row(2).setZero();
+  scene.contacts[1].support.normal.stiffness = 0.24 * 8e4;
+  EXPECT_EQ(of(scene), 0.0);
+  scene.contacts[1].support.normal.stiffness = 0.26 * 8e4;
+  EXPECT_NEAR(of(scene), 30.0, 1e-10);
+  scene.contacts[1].support.normal.stiffness = 1.0;
+  scene.contacts[1].support.friction = {8e4, 0.0, 0.3, 0.3}; // a tangent across x too
+  EXPECT_NEAR(of(scene), 30.0, 1e-10);
 }
 
 TEST(StepRule, LooksOnlyAlongTheDirectionsThatTheObstacleUses) {

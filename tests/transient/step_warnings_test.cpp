@@ -99,7 +99,7 @@ TEST(StepWarnings, ResolvesNormalDampersThatActImplicitly) {
 // Their rate grows with penetrations that no one knows before the run: no mode is made heavier, at any step.
 TEST(StepWarnings, FollowAllModesBesideHuntAndCrossleysDampers) {
   Scene scene = scene_with({Circle{0.1}, {8e4, 0.0, 5.0}, {}});
-  scene.system.stiffness.setConstant(1e6); // 1000 rad/s, above twice w_c = 200
+  scene.system.stiffness.setConstant(1e6); // 1000 rad/s, above 2.25 w_c = 450
   expect_governed(scene, splitting(), mode_share / 1000.0, "the highest mode 1000 rad/s");
   EXPECT_EQ(choose_step(scene, splitting()).scaled, 0);
   const StepChoice given = choose_step(scene, splitting(2.3e-3));

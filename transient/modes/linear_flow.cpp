@@ -46,7 +46,7 @@ Scene uncoupled_part(const Scene& scene, const vibration::DiagonalFlow& blocks,
 LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths)
     : blocks_(blocks_of(scene, step, lengths)), uncoupled_modes_(other_modes(blocks_, scene.system.size())),
       uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
-      modes_(scene.system.size()), lengths_(lengths) {
+      modes_(scene.system.size()), lengths_(lengths), middle_of_bend_(step * step / 32.0) {
   none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
   for_bends_.fill({none_, none_});
   uncoupled_.linear_for_bends(for_bends_);

@@ -80,6 +80,12 @@ public:
         force.slope[i] += for_bends_[k].slope[i] * bends[k][i];
       }
   }
+  /// Adds to displacements of `middle` what the bends move modes by there: h^2/32 of one of degree 2, of slow modes; of w h = 2 to a fifth. Not of
+  /// blocks. No allocation.
+  void add_bends_in_middle(const std::array<kernels::Array, 2>& bends, kernels::Array& q) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i)
+      q[i] += middle_of_bend_ * bends[0][i];
+  }
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
               const vibration::ModalForce* force, kernels::Array& q) {
@@ -129,6 +135,7 @@ private:
   std::optional<vibration::LoadSum> random_; ///< sampled loads on all modes
   BlockEnergies start_;                      ///< fluid_work: y^T P y
   vibration::BentForce for_bends_;           ///< by numbers of a force
+  double middle_of_bend_;                    ///< s2
   kernels::Array none_, a_, b_, y_, q_, v_;
 };
 

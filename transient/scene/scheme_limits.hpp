@@ -41,7 +41,7 @@ struct SchemeLimits {
   /// That a step has at most for the dampers of contacts, whose bounds are those of an interval. 64: where more are needed, the step is made shorter.
   int intervals = 1;
   /// w_c h, w_t h: a closed, a sticking contact. `share`: impacts and slides are as accurate as statistics are to be (doc/schemes.md; the intervals of
-  /// splitting have half of it). `largest`: above it an impact changes the energy by more than 1 %, or (energy_conserving) the largest force is
+  /// splitting have a third of it). `largest`: above it an impact changes the energy by more than 1 %, or (energy_conserving) the largest force is
   /// 4 % low and more, however stable the run (bench/stability_map.hpp).
   StepBound contact = {};
   /// r_t dt: a contact that its tangential damper stops; of Euler and devogelaere r_e h too, all dampers that they have explicitly, whose limits of stability are 1
@@ -96,7 +96,7 @@ inline constexpr std::array<SchemeLimits, scheme_count> scheme_limits{{
 }};
 
 /// Of splitting alone. w_s h, of the structure at its contacts, and w_c h (w_t h) up to which no step need be shorter for it: above both, what the modes hold back of a
-/// force within the step is no cubic any more, and impacts change the energy by 1.5 % at w_c h = 3, w_s h = 1.1; within, by 0.2 %.
+/// force within the step is no cubic any more, and impacts change the energy by 1.6 % at w_c h = 3, w_s h = 1.1; within, by 0.1 % on average over the places of the touch in a step, 0.3 % at most.
 constexpr StepBound structure_at_contacts{0.9, 0.9}, contact_beside_structure{1.75, 1.75};
 /// w_c dt and w_t dt of its intervals, by accuracy as w_c h: three in the longest step. Contacts whose error replays
 /// (splitting/replays.hpp) find above the accuracy move in up to 16 times as many.
@@ -105,9 +105,9 @@ constexpr StepBound contact_interval{1.0, 1.0};
 constexpr double scaled_above = 2.25;
 /// r_n h up to which modes are made heavier: the force of an impact that a damper stops within the step begins with a jump, which moves all modes.
 constexpr double scaled_up_to_damper = 3.0;
-/// Steps over the shortest interval of a table that is no record: lines between the ends of steps cut tips that lie inside of them, and a contact of w_c h = 3 shows it
-/// (at 1 its largest force comes out 14 % wrong, at 0.5 4 %).
-constexpr double table_share = 0.5;
+/// A step over the shortest interval of a table that is no record, and w_c h (w_t h) up to which it may be the whole interval: lines between the ends of steps cut tips
+/// that lie inside of them, and a contact of w_c h = 3 shows it (of a whole interval its largest force comes out 14 % wrong; within these, 4 %).
+constexpr double table_share = 0.5, contact_beside_tables = 1.75;
 /// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
 /// fewest steps in its period: 0.8 %.
 constexpr double record_share = 1.0, record_share_without_contacts = 0.5, fewest_points_of_records = 4.0;

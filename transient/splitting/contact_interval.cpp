@@ -129,6 +129,14 @@ void ContactIntervals::apply_own_force(MovingContact& m, const IntervalTable& ta
   m.by_growth = table.w * m.growth;
 }
 
+void ContactIntervals::keep_middle(MovingContact& m, const IntervalTable& table, double time) {
+  const double dt = table.length;
+  apply_own_force(m, table);
+  const Components by = m.others_over(dt) + m.by_force - m.by_held,
+                   growth = m.others_growth_over(dt) + m.by_growth;
+  m.middle = m.response + time * (m.rate + time * (0.5 * by + (time / (6.0 * dt) - 0.25) * growth));
+}
+
 void ContactIntervals::move(MovingContact& m, const IntervalTable& table) const {
   const double dt = table.length;
   apply_own_force(m, table);

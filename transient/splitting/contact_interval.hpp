@@ -77,6 +77,7 @@ struct MovingContact {
   FreePath path;            ///< of the modes, under the forces held
   ContactCourse course;
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
+  Components middle;         ///< m: r in the middle of the step
   Components others,
       others_growth; ///< m/s2: by what the forces of the others differ from those held, mean and growth over an interval
   Components held_back,
@@ -134,6 +135,8 @@ public:
   static void apply_own_force(MovingContact& m, const IntervalTable& table);
   /// Its force over the interval `index` of the step, the others' given. No allocation.
   void find_force(MovingContact& m, const IntervalTable& table, int index) const;
+  /// Keeps r a time after the start of the interval, under all forces as they were found, as that of the middle of the step.
+  static void keep_middle(MovingContact& m, const IntervalTable& table, double time);
   /// To the end of the interval, under all forces as they were found. Those of the others are expected to grow on.
   void move(MovingContact& m, const IntervalTable& table) const;
   /// N: about what its force would change by for a further acceleration, m/s2.

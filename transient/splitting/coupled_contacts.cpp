@@ -215,8 +215,12 @@ void CoupledContacts::move(int first) {
       find_forces_together(first, index, count);
     else
       laws_[moving_[first].number].find_force(moving_[first], tables_[moving_[first].number], index);
-    for (int i = first; i >= 0; i = next_[i])
-      laws_[moving_[i].number].move(moving_[i], tables_[moving_[i].number]);
+    for (int i = first; i >= 0; i = next_[i]) {
+      MovingContact& m = moving_[i];
+      if (index == count / 2)
+        ContactIntervals::keep_middle(m, tables_[m.number], (0.5 * count - index) * tables_[m.number].length);
+      laws_[m.number].move(m, tables_[m.number]);
+    }
     if (holds_back && index + 1 < count)
       hold_back(first, h_ / count);
     for (int i = first; i >= 0; i = next_[i]) { // the others take it that all forces grow on
@@ -323,6 +327,16 @@ void CoupledContacts::finish_step(const ContactMotion& end, ContactLosses& losse
                                          of_lanes(end.u, m.number) - m.path.displacement(h_) - m.response);
   }
   finish_tangential_springs(1, losses);
+}
+
+void CoupledContacts::place_in_middle(double* u) const {
+  for (const MovingContact& m : moving_) {
+    const Components at = m.path.displacement(0.5 * h_) + m.middle;
+    u[m.number] = at.y();
+    u[contacts_.width + m.number] = at.z();
+    if (contacts_.components == 3)
+      u[2 * contacts_.width + m.number] = at.x;
+  }
 }
 
 void CoupledContacts::pass(int steps, ContactTrial& trial, ContactLosses& losses) {

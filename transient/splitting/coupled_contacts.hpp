@@ -50,6 +50,8 @@ public:
                   ContactTrial& trial, ContactLosses& losses);
   /// After `make`, when the modes have taken the forces: the contacts stand here. The springs of those that stayed open relax.
   void finish_step(const ContactMotion& end, ContactLosses& losses);
+  /// Displacements in the middle of the step of the contacts that have moved through its intervals, into lanes. No allocation.
+  void place_in_middle(double* u) const;
   /// Steps in which all contacts stay open. No allocation.
   void pass(int steps, ContactTrial& trial, ContactLosses& losses);
 

@@ -13,7 +13,7 @@
 /// u0 + w0 L/3, u1 - w1 L/3, u1, but for what it exceeds the cubic by (4 % of the amplitude of a mode of w h = 2), and gaps are concave functions
 /// of it; of round bodies side by side, whose gap is convex, where they exceed the speeds times L. That is the path under the forces held: a contact that others push in and out again within a step is not seen.
 ///
-/// Energy: works of loads and contact forces on the modes are exact, modal damping is what the flow does not keep of them. The residual of the
+/// Energy: works of loads on the modes are exact, those of contact forces but for their bends (LinearFlow::add_bends), modal damping is what the flow does not keep of them. The residual of the
 /// energy balance is what the contacts' laws, along their own path, made otherwise than the modes. Where forces of motion couple modes their energy, the
 /// fluid's work (diagonal_flow.hpp) and with them modal damping are found for the records that are asked for them, exactly; the residual is right in all.
 ///
@@ -65,7 +65,7 @@ public:
         contacts_(modes_.outputs(scene.contacts), modes_.coordinates(), modes_.has_blocks()),
         inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_), predicted_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
-        forces_(inputs_ ? *inputs_ : contacts_),
+        forces_(inputs_ ? *inputs_ : contacts_, modes_.has_bow()),
         coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
@@ -396,13 +396,16 @@ private:
 
   void prepare_output(Step& s, const Step& to) {
     modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
-    // contacts: by the cubic through both ends, and the quartic where they are near
+    // contacts: by the cubic through both ends, by the quartic where some are near, and by their own path where they may be closed
     const double eighth = 0.125 * s.length;
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
     if (!near_.empty() && modes_.has_bow())
       for (std::size_t lane = 0; lane < s.u.size(); ++lane)
         s.u[lane] += middle_of_bow * bow_[lane];
+    coupled_.place_in_middle(s.u.data());
+    if (s.pushed && forces_.any_bend())
+      modes_.add_bends_in_middle(forces_.bends(), s.q);
     for (std::size_t i = 0; i < mode_scales_.size(); ++i)
       s.q[i] *= mode_scales_[i];
   }

@@ -4,15 +4,15 @@
 
 namespace fretwork::transient {
 
-StepForces::StepForces(const PackedContacts& contacts)
-    : components_(contacts.components), rows_(contacts),
+StepForces::StepForces(const PackedContacts& contacts, bool bends)
+    : components_(contacts.components), takes_bends_(bends), rows_(contacts),
       held_(static_cast<std::size_t>(contacts.padded_modes), 0.0), bends_{held_, held_} {
   for (auto& f : factors_)
     f.resize(3 * static_cast<std::size_t>(contacts.count));
 }
 
 void StepForces::add(int c, int component, const Factors& of) {
-  const auto& [held, mean, slope, bend, twist] = of;
+  const auto& [held, mean, slope, second, third] = of;
   if (mean == 0.0 && slope == 0.0 && held == 0.0)
     return;
   for (std::size_t k = 0; k < of.size(); ++k)
@@ -20,7 +20,7 @@ void StepForces::add(int c, int component, const Factors& of) {
   rows_.add(c, component);
   any_held_ = any_held_ || held != 0.0;
   any_slope_ = any_slope_ || slope != 0.0;
-  any_bend_ = any_bend_ || bend != 0.0 || twist != 0.0;
+  any_bend_ = any_bend_ || (takes_bends_ && (second != 0.0 || third != 0.0));
 }
 
 void StepForces::assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,

@@ -13,8 +13,8 @@ namespace fretwork::transient {
 
 class StepForces {
 public:
-  /// @param contacts  with rows over the numbers of a force; must live longer
-  explicit StepForces(const PackedContacts& contacts);
+  /// @param contacts  with rows over the numbers of a force; must live longer   @param bends  whether modes are fast enough for them
+  StepForces(const PackedContacts& contacts, bool bends);
 
   /// Takes the forces of these contacts. No allocation.   @param found  overwritten by those of the step without their bends; null: only those held are wanted
   void assemble(const CoupledContacts& coupled, const std::vector<int>& contacts,
@@ -33,6 +33,7 @@ private:
   void add(int c, int component, const Factors& of);
 
   int components_;
+  bool takes_bends_;
   RowScatter rows_;
   std::array<std::vector<double>, 5> factors_;
   kernels::Array held_;
