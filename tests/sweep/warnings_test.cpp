@@ -100,14 +100,14 @@ TEST_F(Sweeps, WarnOfCasesThatTheirRunWarnsOf) {
 design = "grid"
 [[sweep.variables]]
 key = "transient.step"
-values = [1.0e-4, 0.02]
+values = [1.0e-4, 0.04]
 )"),
                                 "long");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(says(outcome.out, "case 1 done with a warning: the step 0.02 s does not resolve"));
+  EXPECT_TRUE(says(outcome.out, "case 1 done with a warning: the step 0.04 s does not resolve"));
   const auto rows = table_of(folder.path("long"));
   EXPECT_FALSE(rows.at(0).contains("message")); // the last cell is empty
-  EXPECT_TRUE(says(rows.at(1).at("message"), "the step 0.02 s does not resolve"));
+  EXPECT_TRUE(says(rows.at(1).at("message"), "the step 0.04 s does not resolve"));
 }
 
 TEST_F(Sweeps, WarnOfModesThatAreTooFewForACase) {
