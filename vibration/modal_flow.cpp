@@ -15,7 +15,7 @@ constexpr double least_bow = 0.1;
 /// Of a mode that another flow moves.
 constexpr kernels::StepCoefficients stays{1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0};
 
-/// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none above (the matrix is singular at 2 pi).
+/// The force of a mode's own, linear over the step, by what displacement and velocity at its end differ from without it; none above highest_followed (the matrix is singular at 2 pi).
 std::array<double, 4> own_force(double k, const kernels::StepCoefficients& s, double h) {
   if (std::sqrt(k) * h > highest_followed)
     return {};
