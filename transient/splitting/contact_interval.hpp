@@ -213,6 +213,7 @@ private:
   double h_, clearance_;
   double spring_left_; ///< share of an open contact's spring after a step
   DamperRates rates_;
+  bool beside_stiff_structure_; ///< its modes are as fast as the step
 };
 
 } // namespace fretwork::transient
