@@ -166,7 +166,7 @@ void ContactStatistics::watch_penetration(const transient::Record& record, std::
   const double gap = contact::locate(support.obstacle, rest_y_[contact] + record.uy[contact],
                                      rest_z_[contact] + record.uz[contact])
                          .gap;
-  sums_[contact].deepest = std::max(sums_[contact].deepest, -gap);
+  sums_[contact].deepest = std::max({sums_[contact].deepest, -gap, record.states[contact].deepest});
 }
 
 void ContactStatistics::write_sums(double* row) const {

@@ -5,7 +5,7 @@
 ///
 /// y and z are displacements of the node, from its rest. Radial figures are those of its position, about the obstacle's centre:
 /// r^2 = (rest_y + y)^2 + (rest_z + z)^2. The penetration is that of the contact's law: F_N/K_N at the largest force where nothing damps
-/// along the normal, else the largest -gap of the records with a normal force.
+/// along the normal, else the largest of the motion inside the steps, of schemes that know it, and -gap of the records with a normal force.
 #pragma once
 #include "contact/sides.hpp"
 #include "post/batch_maxima.hpp"
@@ -90,7 +90,7 @@ private:
     std::int64_t departures = 0;
     double duration = 0.0, longest = 0.0;              ///< of the impact under way; of all
     double impact_time = 0.0;                          ///< of impacts that started in the window
-    double deepest = 0.0;                              ///< m, penetration at the records
+    double deepest = 0.0;                              ///< m, penetration at the records and between
     bool counted = false;                              ///< the impact under way started in the window
     std::array<double, contact::most_sides> slid_at{}; ///< `slid` by side
     double slid_at_corners = 0.0;                      ///< of `slid`

@@ -30,10 +30,12 @@ struct ContactState {
   double normal_square = 0.0;   ///< N2, mean over the step
   double friction_square = 0.0; ///< N2, likewise
   double peak = 0.0;            ///< N, largest normal force
-  double sliding = 0.0;         ///< share of the step in which it slides
-  double wear_work = 0.0;       ///< J, integral of F_N |v_T| while it slides
-  double departure = 0.0;       ///< m/s, away from the obstacle: speed at which the contact opened, if it did
-  int touches = 0;              ///< how often it closed in the step
+  double deepest =
+      0.0; ///< m, largest penetration beside a normal damper, of schemes that know it between positions
+  double sliding = 0.0;   ///< share of the step in which it slides
+  double wear_work = 0.0; ///< J, integral of F_N |v_T| while it slides
+  double departure = 0.0; ///< m/s, away from the obstacle: speed at which the contact opened, if it did
+  int touches = 0;        ///< how often it closed in the step
   double closed_at = 0.0, opened_at = 0.0; ///< shares of the step before it closed and opened last, if it did
 
   /// Of schemes that know one force in the step: what follows from its mean, where it acts for a share of the step.

@@ -283,6 +283,18 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
   return last > 0.0 ? dt * first / (first - last) : dt;
 }
 
+/// m: of a penetration that comes from p0, v0 to p1, v1 in a time, by the cubic through both.
+double ContactIntervals::deepest(double p0, double v0, double p1, double v1, double time) {
+  double turn = 0.0;
+  if (v0 > 0.0 && v1 < 0.0) {
+    const double mean = (p1 - p0) / time, a = (6.0 * mean - 4.0 * v0 - 2.0 * v1) / time,
+                 j = 6.0 * (v0 + v1 - 2.0 * mean) / (time * time);
+    const double at = 2.0 * v0 / (std::sqrt(std::max(0.0, a * a - 2.0 * j * v0)) - a);
+    turn = p0 + at * (v0 + at * (0.5 * a + at * j / 6.0));
+  }
+  return std::max({p0, p1, turn});
+}
+
 ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& a, bool closed,
                                                                   const IntervalTable& table) const {
   NormalForce out;
@@ -324,6 +336,8 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   const double last_rate = rate + length * (a.acceleration_over(closes, length) - a.mobility * n.force);
   if (n.force > 0.0)
     out.departure = -last_rate;
+  if (normal_.damps())
+    out.deepest = deepest(start, rate, n.end, last_rate, length);
   out.damper_work = n.damper_work;
   if (closes > 0.0)
     out.damper_work += released(a.penetration, start);
@@ -381,6 +395,7 @@ inline void ContactIntervals::record(Passage passage, const NormalForce& n, cons
   state.normal_force += table.share * n.force;
   state.normal_square += acts * n.course.square();
   state.peak = std::max(state.peak, n.course.largest());
+  state.deepest = std::max(state.deepest, n.deepest);
   state.damper_work += n.damper_work;
 }
 

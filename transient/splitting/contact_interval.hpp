@@ -192,6 +192,7 @@ private:
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;
   [[nodiscard]] static double touch_after(const Motion& a, double guess, double dt);
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
+  [[nodiscard]] static double deepest(double p0, double v0, double p1, double v1, double time);
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
   void record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
               ContactCourse& course) const;

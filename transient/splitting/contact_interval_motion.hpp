@@ -51,6 +51,7 @@ struct ContactIntervals::NormalForce {
   bool opens = false;                     ///< it ends in the interval
   double approach = 0.0, departure = 0.0; ///< m/s, where it closes and opens
   double damper_work = 0.0;               ///< J
+  double deepest = 0.0;                   ///< m, penetration beside a damper
 };
 
 } // namespace fretwork::transient

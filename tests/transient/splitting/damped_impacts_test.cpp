@@ -2,6 +2,7 @@
 // Impacts without rebound at long steps: the force jumps to C_N v at the touch and falls within a small part of the step.
 #include "single_mass.hpp"
 #include "transient/scene/scheme_limits.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace fretwork::tests::damped_impacts_test {
@@ -56,6 +57,19 @@ TEST(DampedImpacts, HaveTheirLargestAndRmsForceWhereTheDamperLimitsTheStep) {
         << steps; // parabolas for e^-1.8
     EXPECT_NEAR(run.statistics.at(0).normal_max / exact.normal_max, 1.0, 5e-3) << steps;
   }
+}
+
+// Steps of w_c h = 3 have a position or two in an impact, the largest of which is down to a third of the penetration.
+TEST(DampedImpacts, HaveTheirLargestPenetrationBetweenPositions) {
+  for (const double ratio : {0.02, 0.1, 0.3})
+    for (const int parts : {1, 2, 3, 4}) { // they touch elsewhere in a step
+      SingleMass mass = damped(2.0 * ratio * contact_frequency);
+      mass.gap = gap + 0.25 * parts * longest * speed;
+      const History run = simulate(scene_of(mass), splitting(longest), mass.duration);
+      const double exact =
+          speed / contact_frequency * std::exp(-ratio / std::sqrt(1.0 - ratio * ratio) * std::acos(ratio));
+      EXPECT_NEAR(run.statistics.at(0).penetration_max / exact, 1.0, 0.01) << ratio << " " << parts;
+    }
 }
 
 } // namespace fretwork::tests::damped_impacts_test
