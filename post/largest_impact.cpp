@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/largest_impact.hpp"
 #include <algorithm>
+#include <tuple>
 
 namespace fretwork::post {
+namespace {
+
+/// Of a step: pieces of force with less between them are one contact.
+constexpr double together = 1e-6;
+
+/// Share of a piece: where the force is largest, if inside, else the middle.
+double inner_point(const contact::ParabolicForce& force) {
+  const double slope = force.slope(), falls = 12.0 * force.bow();
+  return slope > 0.0 && slope < falls ? slope / falls : 0.5;
+}
+
+} // namespace
 
 LargestImpact::LargestImpact(std::size_t contacts, double from) : from_(from), contacts_(contacts) {
   for (Contact& contact : contacts_) {
@@ -24,21 +37,49 @@ void LargestImpact::Contact::add(const ForcePoint& point) {
     keep();
 }
 
+void LargestImpact::Contact::add(const transient::ForcePiece& piece, double start, double step) {
+  const auto& [normal, friction] = std::tie(piece.normal, piece.friction);
+  const double from = start + piece.from * step, to = start + piece.to * step;
+  const bool goes_on = closed && from - ended < together * step;
+  if (closed && !goes_on) // it has opened within the step
+    add({ended, 0.0, 0.0});
+  if (!goes_on) {
+    add({from, 0.0, 0.0});
+    if (normal.first > 0.0) // of a damper
+      add({from, normal.first, friction[0]});
+  }
+  const double at = inner_point(normal);
+  add({from + at * (to - from), normal.at(at), friction[0] + at * (friction[1] - friction[0])});
+  add({to, normal.last, friction[1]});
+  closed = true;
+  ended = to;
+}
+
+/// N: the largest of the points added last.
+void LargestImpact::Contact::look_at(double peak) {
+  if (!(peak > largest))
+    return;
+  largest = peak;
+  still = points / 2;
+}
+
 void LargestImpact::step(const transient::Record& record) {
   if (record.time < from_)
     return;
   const double start = record.time - 0.5 * record.step, end = record.time + 0.5 * record.step;
+  for (const transient::ForcePiece& piece : record.pieces)
+    contacts_[static_cast<std::size_t>(piece.contact)].add(piece, start, record.step);
   for (const int c : record.active) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     Contact& contact = contacts_[static_cast<std::size_t>(c)];
-    if (!contact.closed)
-      contact.add({start, 0.0, 0.0});
-    contact.closed = true;
-    contact.add({record.time, state.normal_force, norm(state.friction)});
-    if (state.peak > contact.largest) {
-      contact.largest = state.peak;
-      contact.still = points / 2;
+    if (record.pieces.empty()) {
+      if (!contact.closed)
+        contact.add({start, 0.0, 0.0});
+      contact.closed = true;
+      contact.add({record.time, state.normal_force, norm(state.friction)});
+      contact.ended = end;
     }
+    contact.look_at(state.peak);
   }
   for (const int c : record.opened) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
@@ -46,7 +87,7 @@ void LargestImpact::step(const transient::Record& record) {
     if (state.touches > 0 && state.opened_at < state.closed_at)
       continue; // it closed again
     if (contact.closed)
-      contact.add({state.normal_force > 0.0 ? end : start, 0.0, 0.0});
+      contact.add({contact.ended, 0.0, 0.0});
     contact.closed = false;
   }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// The history of force about the largest impact of every contact, at every step, independent of any sampling.
+/// The history of force about the largest impact of every contact, independent of any sampling.
 ///
-/// A history has the records with a normal force about that with the largest one of the window, `points` / 2 before it and as many after
-/// at most; points without force stand at the start of the step in which the contact closes and at the end of that in which it opens.
-/// Forces are means over steps.
+/// A history has points with a normal force about the largest one of the window, `points` / 2 before it and as many after at most, and points without
+/// force where the contact closes and opens. Of schemes that know forces within steps (ForcePiece) they are those at the middle, or where they are largest, and at the end of each
+/// piece; of others means over steps, with points without force at the start of the step in which the contact closes and at the end of that in which it
+/// opens.
 #pragma once
 #include "transient/run.hpp"
 #include <vector>
@@ -19,7 +20,7 @@ struct ForcePoint {
 
 class LargestImpact final : public transient::ContactObserver {
 public:
-  static constexpr std::size_t points = 256;
+  static constexpr std::size_t points = 512;
 
   /// @param contacts  number of contacts   @param from  start of the window, s
   LargestImpact(std::size_t contacts, double from);
@@ -36,9 +37,12 @@ private:
     std::uint64_t still = 0;      ///< points to come until the ring is kept; 0: it has been
     double largest = 0.0;         ///< N
     bool closed = false;          ///< at the end of the record before
+    double ended = 0.0;           ///< s: the last force
     void add(const ForcePoint& point);
+    void add(const transient::ForcePiece& piece, double start, double step);
+    void look_at(double peak);
     void keep();
-    void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, closed); }
+    void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, closed, ended); }
   };
   double from_;
   std::vector<Contact> contacts_;

@@ -20,9 +20,6 @@ constexpr int passing = 4;
 /// Of a fixed step, below all the parts that schemes cut it into: what the end of a run is told by.
 constexpr double least_part = 1.0 / 1024.0;
 
-/// Times as many intervals as the step rule gives that replays may ask for.
-constexpr int most_refined = 16;
-
 std::unique_ptr<Scheme> make_splitting_of(const Scene& scene, const StepChoice& c) {
   const SplittingOptions options{c.fastest, c.macro_steps, c.parts};
   if (!(c.replay > 0.0))

@@ -2,6 +2,7 @@
 #include "hand_made.hpp"
 #include "post/largest_impact.hpp"
 #include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
 #include <utility>
 
@@ -82,6 +83,52 @@ TEST(LargestImpact, HasNoForceBetweenTwoImpacts) {
     EXPECT_DOUBLE_EQ(history[i].time, expected[i].first * h) << i;
     EXPECT_EQ(history[i].normal, expected[i].second) << i;
   }
+}
+
+/// Two impacts within a step, of which the second goes on in the next one, which it leaves at once.
+TEST(LargestImpact, HasTheForcesWithinSteps) {
+  LargestImpact impacts(2, 0.0);
+  std::vector<transient::ContactState> states(2);
+  transient::Record record;
+  record.states = states;
+  record.step = h;
+  const int contact = 1;
+  record.active = {&contact, 1};
+  states[1].normal_force = 1.0;
+  states[1].peak = 9.0;
+  std::vector<transient::ForcePiece> pieces{{1, 0.1, 0.3, {0.0, 0.0, 4.0}, {0.0, 2.0}},
+                                            {1, 0.5, 0.75, {5.0, 7.0, 6.0}, {1.0, 1.0}},
+                                            {1, 0.75, 1.0, {7.0, 9.0, 8.0}, {1.0, 3.0}}};
+  record.pieces = pieces;
+  record.time = 0.5 * h;
+  impacts.step(record);
+  pieces = {{1, 0.0, 0.2, {9.0, 0.0, 9.0}, {3.0, 1.0}}};
+  record.pieces = pieces;
+  record.time = 1.5 * h;
+  record.opened = {&contact, 1};
+  states[1].opened_at = 0.2;
+  impacts.step(record);
+  const auto history = impacts.histories()[1];
+  const std::vector<std::array<double, 3>> expected{{0.1, 0.0, 0.0},
+                                                    {0.2, 6.0, 1.0},
+                                                    {0.3, 0.0, 2.0},
+                                                    {0.3, 0.0, 0.0},
+                                                    {0.5, 0.0, 0.0},
+                                                    {0.5, 5.0, 1.0},
+                                                    {0.625, 6.0, 1.0},
+                                                    {0.75, 7.0, 1.0},
+                                                    {0.875, 8.0, 2.0},
+                                                    {1.0, 9.0, 3.0},
+                                                    {1.0 + 0.2 / 3.0, 12.0, 3.0 - 2.0 / 3.0},
+                                                    {1.2, 0.0, 1.0},
+                                                    {1.2, 0.0, 0.0}};
+  ASSERT_EQ(history.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_DOUBLE_EQ(history[i].time, expected[i][0] * h) << i;
+    EXPECT_DOUBLE_EQ(history[i].normal, expected[i][1]) << i;
+    EXPECT_DOUBLE_EQ(history[i].tangential, expected[i][2]) << i;
+  }
+  EXPECT_TRUE(impacts.histories()[0].empty());
 }
 
 TEST(LargestImpact, IsThatOfTheWindowHoweverManyFollow) {

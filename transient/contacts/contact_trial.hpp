@@ -14,16 +14,18 @@ struct ContactTrial {
   void clear() {
     if (!active.empty() || !opened.empty())
       open_all();
+    pieces.clear();
     springs = cut = 0.0;
   }
-  void visit(core::StateArchive& state) { state(states, active, opened, springs, cut); }
+  void visit(core::StateArchive& state) { state(states, active, opened, pieces, springs, cut); }
 
   std::vector<ContactState>
       states; ///< of all contacts; friction_work and the tangential part of damper_work come with the commit
   std::vector<int> active; ///< contacts with a force, by increasing number
   std::vector<int>
-      opened;           ///< those that had one at the last commit and have none now: known after the commit
-  double springs = 0.0; ///< J, energy of the normal springs
+      opened; ///< those that had one at the last commit and have none now: known after the commit
+  std::vector<ForcePiece> pieces; ///< of the contacts in `active`, where a scheme knows them
+  double springs = 0.0;           ///< J, energy of the normal springs
   double cut =
       0.0; ///< J over the step, lost by springs that a damper holds free of force: what the positive part cuts
 
@@ -52,6 +54,7 @@ inline void show(Record& record, const PackedContacts& contacts, const double* q
   record.states = trial.states;
   record.active = trial.active;
   record.opened = trial.opened;
+  record.pieces = trial.pieces;
 }
 
 /// The contacts' forces as forces on the modes.

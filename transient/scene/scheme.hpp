@@ -2,6 +2,7 @@
 /// @file
 /// What all time schemes share: the record of a step that observers see, the energy balance, the interface.
 #pragma once
+#include "contact/normal_interval.hpp"
 #include "contact/plane.hpp"
 #include "core/state_archive.hpp"
 #include "transient/scene/scene.hpp"
@@ -55,6 +56,14 @@ struct ContactState {
   void act_throughout(bool touched) { act_for(1.0, touched); }
 };
 
+/// The force of a contact over a part of a step, of schemes that move contacts within steps.
+struct ForcePiece {
+  int contact = 0;
+  double from = 0.0, to = 0.0;      ///< shares of the step between which it acts
+  contact::ParabolicForce normal;   ///< N
+  std::array<double, 2> friction{}; ///< N, lengths of the vector at both ends
+};
+
 /// Normal and tangential force of a contact at an instant, N.
 struct ContactForce {
   double normal;
@@ -103,6 +112,8 @@ struct Record {
   std::span<const ContactState> states;
   std::span<const int> active; ///< numbers of the contacts with a normal force in the step
   std::span<const int> opened; ///< of those that opened in it, or since the record before
+  std::span<const ForcePiece>
+      pieces; ///< of the contacts in `active`, those of each in time; none: forces are known as means over steps
   Energy energy;
 };
 

@@ -16,8 +16,8 @@ static_assert(limits_of(SchemeKind::splitting).normal_damper.largest < contact::
               "forces of impacts that dampers stop fall within an interval as parabolas");
 /// Of its clearance, what a contact may move in an interval.
 constexpr double longest_way = 1.0;
-/// Of a step in which a contact meets a corner of its obstacle: times as many intervals, the fewest and the most of them.
-constexpr int at_corner = 16, least_at_corner = 32, most_at_corner = 128;
+/// Of a step in which a contact meets a corner of its obstacle: times as many intervals, the fewest of them.
+constexpr int at_corner = 16, least_at_corner = 32;
 /// Of one in which it meets another side: as many for each clearance that it moves by, in a step of one interval and in others; the fewest.
 constexpr int at_side_alone = 1, at_side = 2, least_at_side = 4;
 /// Cosine of the angle by which its normal turns there in half a step; way in the clearance without which a round hole or two planes have no such turn.
@@ -436,10 +436,14 @@ void ContactIntervals::find_force(MovingContact& m, const IntervalTable& table, 
   record(passage, n, table, index, m.course);
   past.closed = ends_closed(passage);
   m.force = m.growth = m.last = {};
-  if (n.force > 0.0)
+  m.piece = {m.number, 0.0, 0.0, n.course, {}};
+  if (n.force > 0.0) {
+    m.piece.from = index * table.share + n.from / h_;
+    m.piece.to = index * table.share + n.to / h_;
     add_force(passage, motion, n, table, index, m);
-  else if (friction_.active())
+  } else if (friction_.active()) {
     m.course.relaxed += relax_to(past, table.spring_left);
+  }
   m.throughout = past.closed && n.from == 0.0;
   past.rise = m.throughout ? (1.0 / table.length) * m.growth : Components{};
   m.penetration = std::max({0.0, motion.penetration, motion.after(table.length)});

@@ -69,12 +69,16 @@ struct ContactCourse {
   bool penetrates = false; ///< it may be in its obstacle at the end, free of force or not
 };
 
+/// Intervals of a step in which a contact meets a corner of its obstacle, at most.
+inline constexpr int most_at_corner = 128;
+
 /// A contact on its way through a step.
 struct MovingContact {
   int number = 0;           ///< of the contact
   bool throughout = false;  ///< it has been closed throughout the interval
   double penetration = 0.0; ///< m, the largest at the ends of the interval
   FreePath path;            ///< of the modes, under the forces held
+  ForcePiece piece;         ///< of the interval; of no length: the contact is open
   ContactCourse course;
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
   Components middle;         ///< m: r in the middle of the step

@@ -6,6 +6,7 @@ namespace fretwork::transient {
 namespace {
 
 using contact::dot;
+using contact::norm;
 using contact::Vec2;
 
 /// Of the memory `reference`: one mean force over the interval.
@@ -48,6 +49,7 @@ void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const
   const double dt = table.length, length = n.to - n.from;
   const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
   const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
+  m.piece.friction = {norm(V(mean - 0.5 * growth)), norm(V(mean + 0.5 * growth))};
   m.force = along(a.axes, n.force, force);
   m.growth = along(a.axes, n.growth,
                    (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));

@@ -143,7 +143,7 @@ void CoupledContacts::find_forces(const StepMotion& motion, const std::vector<in
   group();
   for (const int b : touched_)
     if (moving_blocks_[b].parent == b)
-      move(moving_blocks_[b].first);
+      move(moving_blocks_[b].first, trial);
   for (const MovingContact& m : moving_) {
     before_step_.push_back({m.number, pasts_[m.number], forces_[m.number].held});
     pasts_[m.number] = m.course.past;
@@ -192,7 +192,7 @@ void CoupledContacts::group() {
 }
 
 /// A group through the intervals of the step, by its first contact.
-void CoupledContacts::move(int first) {
+void CoupledContacts::move(int first, ContactTrial& trial) {
   int count = 1;
   for (int i = first; i >= 0; i = next_[i])
     count = std::max(count, counts_[i]);
@@ -218,6 +218,8 @@ void CoupledContacts::move(int first) {
       laws_[moving_[first].number].find_force(moving_[first], tables_[moving_[first].number], index);
     for (int i = first; i >= 0; i = next_[i]) {
       MovingContact& m = moving_[i];
+      if (m.piece.to > m.piece.from)
+        trial.pieces.push_back(m.piece);
       if (index == count / 2)
         ContactIntervals::keep_middle(m, tables_[m.number], (0.5 * count - index) * tables_[m.number].length);
       laws_[m.number].move(m, tables_[m.number]);

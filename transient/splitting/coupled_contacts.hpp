@@ -94,7 +94,7 @@ private:
   }
   [[nodiscard]] FreePath path_of(int c, const StepMotion& motion) const;
   [[nodiscard]] const IntervalTable& table_of(int c, int count);
-  void move(int first);
+  void move(int first, ContactTrial& trial);
   void find_forces_together(int first, int index);
   double find_force(MovingContact& m, int index, int place);
   void move_in_intervals_of(int block, int count);

@@ -76,6 +76,9 @@ public:
     if (modes_.has_blocks())
       output_q_.assign(n, 0.0);
     const auto count = static_cast<std::size_t>(contacts_.count);
+    const int most_pieces = std::max(most_at_corner, most_refined * options.parts); // of a contact in a step
+    for (Step& s : steps_)
+      s.trial.pieces.reserve(count * static_cast<std::size_t>(most_pieces));
     modal_bow_.assign(static_cast<std::size_t>(modes_.coordinates()), 0.0);
     bow_.assign(static_cast<std::size_t>(contacts_.stride()), 0.0);
     none_.assign(static_cast<std::size_t>(modes_.force_numbers()), 0.0);

@@ -13,6 +13,8 @@ struct SplittingOptions {
   int longest = 1; ///< the most steps that are made at once while no contact can meet its obstacle
   int parts = 1;   ///< intervals in which contacts move within a step
 };
+/// Times as many of these that replays may ask for.
+inline constexpr int most_refined = 16;
 [[nodiscard]] std::unique_ptr<Scheme> make_splitting(const Scene& scene, double step,
                                                      const SplittingOptions& options = {});
 
