@@ -129,6 +129,35 @@ TEST_P(MovingKernels, CombineAnyNumberOfShapes) {
   }
 }
 
+TEST_P(MovingKernels, ScatterRowsToSeveralVectors) {
+  const int count = std::get<0>(GetParam()), np = kernels::padded(count), rows = 7;
+  std::mt19937 generator(static_cast<unsigned>(count));
+  std::vector<kernels::Array> row, factor, v;
+  std::vector<const double*> starts;
+  for (int r = 0; r < rows; ++r)
+    row.push_back(random_values(count, generator));
+  for (const kernels::Array& r : row)
+    starts.push_back(r.data());
+  for (int t = 0; t < kernels::most_scattered; ++t) {
+    factor.push_back(random_values(rows, generator));
+    v.push_back(random_values(count, generator));
+  }
+  for (int targets = 2; targets <= kernels::most_scattered; ++targets) {
+    std::vector<kernels::Array> found = v;
+    std::vector<kernels::ScatterTarget> to;
+    for (std::size_t t = 0; t < found.size(); ++t)
+      to.push_back({factor[t].data(), found[t].data()});
+    kernels::scatter_several(np, rows, starts.data(), targets, to.data());
+    for (std::size_t t = 0; t < found.size(); ++t)
+      for (std::size_t i = 0; i < found[t].size(); ++i) {
+        double expected = v[t][i];
+        for (std::size_t r = 0; t < static_cast<std::size_t>(targets) && r < row.size(); ++r)
+          expected += factor[t][r] * row[r][i];
+        EXPECT_NEAR(found[t][i], expected, rows * round_off) << targets << " " << t << " " << i;
+      }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(OfModes, MovingKernels,
                          testing::Combine(testing::Values(1, 7, 8, 9, 23, 40, 60),
                                           testing::Values(kernels::VectorSize::pair,
