@@ -112,6 +112,33 @@ void add_confidence(std::vector<std::string>& lines, const Wear& wear) {
                    : "  in brackets: +- one standard error of the work rate");
 }
 
+/// What the depths of tubes begin at that were worn before.
+void add_initial_depths(std::vector<std::string>& lines, const Wear& wear) {
+  std::vector<double> depths; // of scars, m
+  std::size_t worn = 0;
+  for (const WearOfSupport& s : wear.supports) {
+    const std::size_t before = depths.size();
+    const auto add = [&](const WornScar& scar) {
+      if (scar.initial_depth > 0.0)
+        depths.push_back(scar.initial_depth);
+    };
+    if (s.sides.empty())
+      add(s);
+    for (const WearOfSide& side : s.sides)
+      add(side);
+    worn += depths.size() > before ? 1 : 0;
+  }
+  if (worn == 0)
+    return;
+  const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
+  const std::string from = fmt::format("{:.3g}", millimetre * *least),
+                    to = fmt::format("{:.3g}", millimetre * *most);
+  std::string line = "  depths begin at " + (from == to ? to : from + " to " + to) + " mm (initial_wear)";
+  if (worn < wear.supports.size())
+    line += fmt::format(" at {} of {} supports", worn, wear.supports.size());
+  lines.push_back(line);
+}
+
 /// Where coefficients of a bank are from, each once.
 void add_sources(std::vector<std::string>& lines, const Wear& wear) {
   std::vector<std::string> distinct;
@@ -238,6 +265,7 @@ std::vector<std::string> wear_lines(const Wear& wear) {
     lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(supports_end),
                  fmt::format("  the 10 of {} supports with the shortest lives", wear.supports.size()));
   add_confidence(lines, wear);
+  add_initial_depths(lines, wear);
   add_sources(lines, wear);
   if (wear.opening)
     add_opening(lines, wear, shown);

@@ -187,6 +187,18 @@ class FlowAndWear(ReportCase):
         self.assertEqual(rows[0][1:7], rows[2][1:7])
         self.assertEqual(len(rows[0]), len(rows[2]))
 
+    def test_tells_what_depths_begin_at(self):
+        def support(name, depth, *sides):
+            return {"name": name, "initial_depth": depth, "sides": {str(side): {"initial_depth": side} for side in sides}}
+
+        new, worn = support("tsp1", 0.0), support("tsp2", 1.5e-4)
+        self.assertEqual(wear_section._initial_depths([new]), "")
+        self.assertEqual(wear_section._initial_depths([worn, worn]), " Depths begin at 0.15 mm (initial_wear).")
+        sides = support("tsp3", 0.0, 2e-4, 0.0, 1e-4)
+        self.assertEqual(wear_section._initial_depths([new, worn, sides]), " Depths begin at 0.1 to 0.2 mm (initial_wear) at 2 of 3 supports.")
+        made_up(self.folder, 4, 100, wear=True)
+        self.assertIn("Depths begin at 0.1 mm (initial_wear) at 1 of 4 supports.", self.report())
+
     def test_shows_the_wear_of_supports_beside_the_tubes(self):
         made_up(self.folder, 5, 200, wear=True)
         supports = run_data.load(self.folder).wear

@@ -269,7 +269,7 @@ TEST(WearInTheArchive, IsThereOnlyWhereTheStudyAsksForIt) {
 
 TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   const auto lines = wear_lines(*worn(20).wear);
-  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 1u + 2u + 10u + 1u +
+  EXPECT_EQ(lines.size(), 1u + 10u + 1u + 1u + 1u + 1u + 1u + 2u + 10u + 1u +
                               10u); // the last ones of gap opening, and of the supports
   for (const std::string& line : lines)
     EXPECT_LE(line.size(), widest) << line;
@@ -280,10 +280,37 @@ TEST(WearOnTheTerminal, FitsItsWidthAndShowsTheShortestLives) {
   EXPECT_THAT(lines[11], HasSubstr("the 10 of 20 supports with the shortest lives"));
   EXPECT_THAT(lines[12], HasSubstr("first: tsp20"));
   EXPECT_EQ(lines[13], "  in brackets: +- one standard error of the work rate");
-  EXPECT_EQ(lines[14], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
-  EXPECT_EQ(lines[15], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
-  EXPECT_THAT(lines[17],
+  EXPECT_EQ(lines[14], "  depths begin at 0.1 mm (initial_wear) at 1 of 20 supports");
+  EXPECT_EQ(lines[15], "  K = 2e-14 m2/N: 690_405 on flat_bar: made up");
+  EXPECT_EQ(lines[16], "  gaps opened in 2 stages up to 12.5 years: a tube has lost its limit");
+  EXPECT_THAT(lines[18],
               HasSubstr("tsp20                   0.2 -> 0.25         0.002 -> 0.003     0.3 (0.24 to 0.36)"));
+}
+
+TEST(WearOnTheTerminal, SaysWhatDepthsBeginAt) {
+  RunResults run = worn(3);
+  const auto line = [&] {
+    const auto lines = wear_lines(*run.wear);
+    const auto at = std::find_if(lines.begin(), lines.end(), [](const std::string& text) {
+      return text.starts_with("  depths begin at");
+    });
+    return at == lines.end() ? std::string() : *at;
+  };
+  EXPECT_EQ(line(), "");
+  auto& supports = run.wear->supports;
+  for (WearOfSupport& s : supports) {
+    s.sides.clear();
+    s.initial_depth = 1.5e-4;
+  }
+  EXPECT_EQ(line(), "  depths begin at 0.15 mm (initial_wear)");
+  supports[0].initial_depth = 0.0;
+  supports[1].sides.resize(3); // two of them worn, which the support by itself does not tell
+  supports[1].initial_depth = 0.0;
+  supports[1].sides[0].initial_depth = 2e-4;
+  supports[1].sides[2].initial_depth = 1e-4;
+  for (WearOfSide& side : supports[1].sides)
+    side.volume = supports[1].volume;
+  EXPECT_EQ(line(), "  depths begin at 0.1 to 0.2 mm (initial_wear) at 2 of 3 supports");
 }
 
 TEST(WearOnTheTerminal, HasTheLivesOfSupportsWithOpenedGaps) {

@@ -77,6 +77,18 @@ def _supports(supports):
     return table(heads, rows, (0, 8, 9, *((10,) if several else ())))
 
 
+def _initial_depths(supports):
+    """What the depths of tubes begin at that were worn before, by support: of each of its scars."""
+    worn = {s["name"]: [scar["initial_depth"] for scar in (s["sides"].values() or [s]) if scar["initial_depth"] > 0] for s in supports}
+    depths = [1e3 * depth for of_support in worn.values() for depth in of_support]
+    if not depths:
+        return ""
+    least, most = (short(depth, 3) for depth in (min(depths), max(depths)))
+    count = sum(bool(of_support) for of_support in worn.values())
+    at = "" if count == len(worn) else f" at {count} of {len(worn)} supports"
+    return f" Depths begin at {least if least == most else f'{least} to {most}'} mm (initial_wear){at}."
+
+
 def _supports_themselves(supports):
     """What supports lose that wear or have a limit."""
     worn = [s for s in supports if s["support_volume"][-1, 0] > 0 or math.isfinite(s["support_limit"])]
@@ -187,7 +199,7 @@ def wear(run):
         return ""
     years = run.wear[0]["time"][-1] / wear_view.YEAR
     note = (
-        f'<p class="soft">Volume, depth and scar after {short(years)} years; in brackets the ends of the interval of the work rate. Laws, geometries and '
+        f'<p class="soft">Volume, depth and scar after {short(years)} years; in brackets the ends of the interval of the work rate.{_initial_depths(run.wear)} Laws, geometries and '
         "their limits: doc/wear.md. Coefficients of one pair of materials differ by decades with geometry and source.</p>"
     )
     along = ""
