@@ -14,8 +14,10 @@ constexpr double residual_warning = 0.05;
 /// What sound runs are balanced to, of the energy put in and of that taken up: the accuracy that the automatic step aims at. The 840 runs of 60 random
 /// scenes by `splitting` (bench_accuracy, seed 90210) are so to 0.7 %.
 constexpr double residual_of_sound = 0.01;
-/// What counts of the work of loads to and fro, and of the energy at the start, of which a preload may be all but a thousandth.
-constexpr double least_of_loads = 1e-3, least_of_start = 1e-4;
+/// Of the work of loads to and fro, what counts.
+constexpr double least_of_loads = 1e-3;
+/// Likewise of the initial energy. Smaller: a preload may be ten thousand times what the motion dissipates.
+constexpr double least_of_start = 1e-5;
 
 /// Dampers of contacts that give back this share of the energy put in are no round-off.
 constexpr double given_by_dampers = 0.01;

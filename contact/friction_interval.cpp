@@ -319,6 +319,8 @@ private:
     acceleration_ = acceleration_ + time * path_.jerk;
     out_.spring = p.spring;
     normal_ = p.normal;
+    if (time < left_)
+      out_.at_changes = std::max(out_.at_changes, std::min(law_.mu_static * normal_, norm(trial())));
     left_ = time < left_ ? left_ - time : 0.0;
   }
 

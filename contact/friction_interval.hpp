@@ -60,6 +60,7 @@ template <class V> struct FrictionInterval {
   double wear_work = 0.0;    ///< J, integral of N |v| while it slides
   double slid = 0.0;         ///< m, the path of that
   double sliding_time = 0.0; ///< s
+  double at_changes = 0.0;   ///< N, the largest force where it changes between stick and slip
 };
 
 /// @param usual  of pieces of the length of most intervals; others are made

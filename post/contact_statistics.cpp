@@ -135,7 +135,7 @@ void ContactStatistics::Sums::add(const transient::ContactState& state, double s
   normal2 += state.normal_square * step;
   normal_max = std::max(normal_max, state.peak);
   tangential2 += state.friction_square * step;
-  tangential_max = std::max(tangential_max, dot(state.friction, state.friction));
+  tangential_max = std::max({tangential_max, norm(state.friction), state.friction_peak});
   slid += state.wear_work;
   if (state.wear_work > 0.0)
     slid_at[side_of(state.axes)] += state.wear_work;
@@ -291,7 +291,7 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
       o.sticking_ratio = 1.0 - s.sliding_time / s.closed_time;
     }
     o.tangential_rms = std::sqrt(s.tangential2 / time_);
-    o.tangential_max = std::sqrt(s.tangential_max);
+    o.tangential_max = s.tangential_max;
     o.y = moments(m.y0[c], m.y[c], m.y2[c], m.y_min[c], m.y_max[c]);
     o.z = moments(m.z0[c], m.z[c], m.z2[c], m.z_min[c], m.z_max[c]);
     o.radial_rms = std::sqrt(m.r2[c] / time_);

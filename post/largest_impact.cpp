@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "post/largest_impact.hpp"
 #include <algorithm>
-#include <tuple>
+#include <array>
+#include <cmath>
 
 namespace fretwork::post {
 namespace {
@@ -9,10 +10,16 @@ namespace {
 /// Of a step: pieces of force with less between them are one contact.
 constexpr double together = 1e-6;
 
-/// Share of a piece: where the force is largest, if inside, else the middle.
-double inner_point(const contact::ParabolicForce& force) {
+/// Shares of a piece at which its history has points before the end, so that straight lines between them have its impulse; the nearest to the largest
+/// force, if that is inside, is moved there.
+std::array<double, 3> inner_points(const contact::ParabolicForce& force) {
+  std::array<double, 3> out{0.25, 0.5, 0.75};
   const double slope = force.slope(), falls = 12.0 * force.bow();
-  return slope > 0.0 && slope < falls ? slope / falls : 0.5;
+  if (slope > 0.0 && slope < falls)
+    *std::min_element(out.begin(), out.end(), [top = slope / falls](double a, double b) {
+      return std::abs(a - top) < std::abs(b - top);
+    }) = slope / falls;
+  return out;
 }
 
 } // namespace
@@ -37,25 +44,30 @@ void LargestImpact::Contact::add(const ForcePoint& point) {
     keep();
 }
 
-void LargestImpact::Contact::add(const transient::ForcePiece& piece, double start, double step) {
-  const auto& [normal, friction] = std::tie(piece.normal, piece.friction);
+void LargestImpact::Contact::add(const transient::ForcePiece& piece, double start, double step,
+                                 bool touched) {
+  const contact::ParabolicForce &normal = piece.normal, &friction = piece.friction;
   const double from = start + piece.from * step, to = start + piece.to * step;
   const bool goes_on = closed && from - ended < together * step;
   if (closed && !goes_on) // it has opened within the step
     add({ended, 0.0, 0.0});
   if (!goes_on) {
-    add({from, 0.0, 0.0});
-    if (normal.first > 0.0) // of a damper
-      add({from, normal.first, friction[0]});
+    if (touched)
+      add({from, 0.0, 0.0});
+    if (normal.first > 0.0) // of a damper, or in the first step of the window
+      add({from, normal.first, friction.first});
   }
-  const double at = inner_point(normal);
-  add({from + at * (to - from), normal.at(at), friction[0] + at * (friction[1] - friction[0])});
-  add({to, normal.last, friction[1]});
+  if (goes_on && normal.first == normal.largest()) // it jumps up
+    add({from, normal.first, friction.first});
+  for (const double at : inner_points(normal))
+    add({from + at * (to - from), normal.at(at), piece.friction_at(at)});
+  look_at(normal.largest());
+  add({to, normal.last, friction.last});
   closed = true;
   ended = to;
 }
 
-/// N: the largest of the points added last.
+/// N: of the points added last.
 void LargestImpact::Contact::look_at(double peak) {
   if (!(peak > largest))
     return;
@@ -68,7 +80,8 @@ void LargestImpact::step(const transient::Record& record) {
     return;
   const double start = record.time - 0.5 * record.step, end = record.time + 0.5 * record.step;
   for (const transient::ForcePiece& piece : record.pieces)
-    contacts_[static_cast<std::size_t>(piece.contact)].add(piece, start, record.step);
+    contacts_[static_cast<std::size_t>(piece.contact)].add(
+        piece, start, record.step, record.states[static_cast<std::size_t>(piece.contact)].touches > 0);
   for (const int c : record.active) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];
     Contact& contact = contacts_[static_cast<std::size_t>(c)];
@@ -78,8 +91,8 @@ void LargestImpact::step(const transient::Record& record) {
       contact.closed = true;
       contact.add({record.time, state.normal_force, norm(state.friction)});
       contact.ended = end;
+      contact.look_at(state.peak);
     }
-    contact.look_at(state.peak);
   }
   for (const int c : record.opened) {
     const transient::ContactState& state = record.states[static_cast<std::size_t>(c)];

@@ -2,10 +2,10 @@
 /// @file
 /// The history of force about the largest impact of every contact, independent of any sampling.
 ///
-/// A history has points with a normal force about the largest one of the window, `points` / 2 before it and as many after at most, and points without
-/// force where the contact closes and opens. Of schemes that know forces within steps (ForcePiece) they are those at the middle, or where they are largest, and at the end of each
-/// piece; of others means over steps, with points without force at the start of the step in which the contact closes and at the end of that in which it
-/// opens.
+/// A history has points with a normal force about the largest one of the window, `points` / 2 up to it and as many after it at most, and points
+/// without force where the contact closes and opens. Of schemes that know forces within steps (ForcePiece) they are those at four places of each
+/// piece, where it is largest and its end among them; two of one time are a jump. Of others they are means over steps, and the points without force
+/// stand at the start of the step in which the contact closes and at the end of that in which it opens.
 #pragma once
 #include "transient/run.hpp"
 #include <vector>
@@ -39,7 +39,8 @@ private:
     bool closed = false;          ///< at the end of the record before
     double ended = 0.0;           ///< s: the last force
     void add(const ForcePoint& point);
-    void add(const transient::ForcePiece& piece, double start, double step);
+    /// @param touched  the contact has closed in the step; else it was closed before the window too
+    void add(const transient::ForcePiece& piece, double start, double step, bool touched);
     void look_at(double peak);
     void keep();
     void visit(core::StateArchive& state) { state(ring, kept, count, still, largest, closed, ended); }

@@ -50,9 +50,9 @@ TEST(JudgeRun, WarnsOfEnergyThatIsLacking) {
               ElementsAre("the energy balance lacks 2.04 % of the energy dissipated and stored; a sound run "
                           "is balanced to 1 %; take a smaller step"));
   // a preload is none that the motion takes up
-  EXPECT_THAT(warnings(0.5, 100.0, {.initial = 99.0, .stored = 99.48}),
+  EXPECT_THAT(warnings(0.5, 900.0, {.initial = 899.0, .stored = 899.48}),
               ElementsAre(HasSubstr("lacks 2.04 %")));
-  EXPECT_THAT(warnings(0.5, 1000.0, {.initial = 999.0, .stored = 999.48}), IsEmpty());
+  EXPECT_THAT(warnings(0.5, 3000.0, {.initial = 2999.0, .stored = 2999.48}), IsEmpty());
 }
 
 TEST(JudgeRun, HoldsABalanceWithoutLossesAgainstWhatIsPutInAlone) {

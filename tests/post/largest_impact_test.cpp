@@ -95,14 +95,14 @@ TEST(LargestImpact, HasTheForcesWithinSteps) {
   const int contact = 1;
   record.active = {&contact, 1};
   states[1].normal_force = 1.0;
-  states[1].peak = 9.0;
-  std::vector<transient::ForcePiece> pieces{{1, 0.1, 0.3, {0.0, 0.0, 4.0}, {0.0, 2.0}},
-                                            {1, 0.5, 0.75, {5.0, 7.0, 6.0}, {1.0, 1.0}},
-                                            {1, 0.75, 1.0, {7.0, 9.0, 8.0}, {1.0, 3.0}}};
+  states[1].touches = 2;
+  std::vector<transient::ForcePiece> pieces{{1, 0.1, 0.3, {0.0, 0.0, 4.0}, {0.0, 0.0, 2.0}, 2.9},
+                                            {1, 0.5, 0.75, {5.0, 7.0, 6.0}, {1.0, 1.0, 1.0}, 1.0},
+                                            {1, 0.75, 1.0, {7.0, 9.0, 8.0}, {1.0, 3.0, 2.0}, 3.0}};
   record.pieces = pieces;
   record.time = 0.5 * h;
   impacts.step(record);
-  pieces = {{1, 0.0, 0.2, {9.0, 0.0, 9.0}, {3.0, 1.0}}};
+  pieces = {{1, 0.0, 0.2, {9.0, 0.0, 9.0}, {3.0, 0.0, 1.5}, 3.0}};
   record.pieces = pieces;
   record.time = 1.5 * h;
   record.opened = {&contact, 1};
@@ -110,17 +110,25 @@ TEST(LargestImpact, HasTheForcesWithinSteps) {
   impacts.step(record);
   const auto history = impacts.histories()[1];
   const std::vector<std::array<double, 3>> expected{{0.1, 0.0, 0.0},
-                                                    {0.2, 6.0, 1.0},
-                                                    {0.3, 0.0, 2.0},
+                                                    {0.15, 4.5, 2.25},
+                                                    {0.2, 6.0, 2.9},
+                                                    {0.25, 4.5, 2.25},
+                                                    {0.3, 0.0, 0.0},
                                                     {0.3, 0.0, 0.0},
                                                     {0.5, 0.0, 0.0},
                                                     {0.5, 5.0, 1.0},
+                                                    {0.5625, 5.5, 1.0},
                                                     {0.625, 6.0, 1.0},
+                                                    {0.6875, 6.5, 1.0},
                                                     {0.75, 7.0, 1.0},
+                                                    {0.8125, 7.5, 1.5},
                                                     {0.875, 8.0, 2.0},
+                                                    {0.9375, 8.5, 2.5},
                                                     {1.0, 9.0, 3.0},
-                                                    {1.0 + 0.2 / 3.0, 12.0, 3.0 - 2.0 / 3.0},
-                                                    {1.2, 0.0, 1.0},
+                                                    {1.0 + 0.2 / 3.0, 12.0, 2.0},
+                                                    {1.1, 11.25, 1.5},
+                                                    {1.15, 7.3125, 0.75},
+                                                    {1.2, 0.0, 0.0},
                                                     {1.2, 0.0, 0.0}};
   ASSERT_EQ(history.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -129,6 +137,49 @@ TEST(LargestImpact, HasTheForcesWithinSteps) {
     EXPECT_DOUBLE_EQ(history[i].tangential, expected[i][2]) << i;
   }
   EXPECT_TRUE(impacts.histories()[0].empty());
+}
+
+/// A step of more pieces than a history has points; the window begins within the impact.
+TEST(LargestImpact, HasItsPeakWhereMoreOfTheStepFollowsThanItKeeps) {
+  LargestImpact impacts(1, 0.0);
+  const transient::ContactState state{.normal_force = 1.0};
+  constexpr int count = 700;
+  std::vector<transient::ForcePiece> pieces;
+  for (int i = 0; i < count; ++i)
+    pieces.push_back(
+        {0,
+         1.0 * i / count,
+         (i + 1.0) / count,
+         i == 2 ? contact::ParabolicForce{1.0, 1.0, 5.0} : contact::ParabolicForce{1.0, 1.0, 1.0},
+         {}});
+  transient::Record record;
+  const int contact = 0;
+  record.states = {&state, 1};
+  record.active = {&contact, 1};
+  record.pieces = pieces;
+  record.step = h;
+  record.time = 0.5 * h;
+  impacts.step(record);
+  const auto history = impacts.histories()[0];
+  EXPECT_EQ(history.front().normal, 1.0); // it touched before
+  EXPECT_EQ(largest(history), pieces[2].normal.largest());
+  EXPECT_LE(history.size(), LargestImpact::points);
+}
+
+TEST(LargestImpact, HasAForceThatJumpsUp) {
+  LargestImpact impacts(1, 0.0);
+  const transient::ContactState state{.normal_force = 1.0, .touches = 1};
+  const std::vector<transient::ForcePiece> pieces{{0, 0.0, 0.5, {0.0, 4.0, 2.0}, {}},
+                                                  {0, 0.5, 1.0, {5.0, 0.0, 2.5}, {}}};
+  transient::Record record;
+  const int contact = 0;
+  record.states = {&state, 1};
+  record.active = {&contact, 1};
+  record.pieces = pieces;
+  record.step = h;
+  record.time = 0.5 * h;
+  impacts.step(record);
+  EXPECT_EQ(largest(impacts.histories()[0]), 5.0);
 }
 
 TEST(LargestImpact, IsThatOfTheWindowHoweverManyFollow) {

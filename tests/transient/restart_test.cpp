@@ -2,6 +2,7 @@
 // A run that is left and gone on with, in objects made anew, gives the same bytes; so does one in vectors of 4 instead of 8 doubles.
 #include "kernels/kernels.hpp"
 #include "post/impact_table.hpp"
+#include "post/largest_impact.hpp"
 #include "post/node_statistics.hpp"
 #include "post/recorder.hpp"
 #include "scenes.hpp"
@@ -29,7 +30,8 @@ public:
       : node_(Eigen::MatrixXd::Constant(3, scene.system.size(), 0.3)), contacts_(scene.contacts, from),
         impacts_(scene.contacts.size(), from, 2e-3, 1000), nodes_({node_}, from),
         forces_(forces_of(node_, scene.contacts.size()), from), grid_(output_grid(scene.duration, every)),
-        recorder_(scene, {{"node", node_}}, grid_), run_(scene, choice, observers_, &recorder_, grid_) {}
+        recorder_(scene, {{"node", node_}}, grid_), largest_(scene.contacts.size(), from),
+        run_(scene, choice, observers_, &recorder_, grid_) {}
 
   Run& run() { return run_; }
 
@@ -44,6 +46,8 @@ public:
     auto nodes = nodes_.summaries();
     auto forces = forces_.summaries();
     out(contacts, impacts, nodes, forces);
+    for (auto& history : largest_.histories())
+      out(history);
     post::TimeSeries series = std::move(recorder_).series();
     const auto add = [&](auto& m) { out.block(m.data(), static_cast<std::size_t>(m.size())); };
     add(series.time);
@@ -79,7 +83,8 @@ private:
   post::ForceStatistics forces_;
   OutputGrid grid_;
   post::Recorder recorder_;
-  Observer* observers_[4] = {&contacts_, &impacts_, &nodes_, &forces_};
+  post::LargestImpact largest_;
+  Observer* observers_[5] = {&contacts_, &impacts_, &nodes_, &forces_, &largest_};
   Run run_;
 };
 

@@ -120,6 +120,7 @@ MassFigures integrate(const SingleMass& m, double step) {
     out.normal_mean += h * normal;
     out.normal_max = std::max(out.normal_max, normal);
     out.tangential_rms += h * contact::dot(friction, friction);
+    out.tangential_max = std::max(out.tangential_max, contact::norm(friction));
     out.contact_time_ratio += a.normal > 0.0 ? h : 0.0;
     out.impacts += a.normal > 0.0 && !was_closed;
     was_closed = a.normal > 0.0;
@@ -159,8 +160,9 @@ SingleMass random_mass(unsigned seed, double damping) {
 }
 
 MassFigures figures_of(const post::ContactSummary& s) {
-  return {s.work_rate,  s.friction_power, s.normal_rms,         s.normal_mean,
-          s.normal_max, s.tangential_rms, s.contact_time_ratio, static_cast<int>(s.impacts)};
+  return {s.work_rate,     s.friction_power, s.normal_rms,         s.normal_mean,
+          s.normal_max,    s.tangential_rms, s.contact_time_ratio, static_cast<int>(s.impacts),
+          s.tangential_max};
 }
 
 } // namespace fretwork::tests

@@ -30,6 +30,7 @@ struct MassFigures {
   double work_rate = 0.0, friction_power = 0.0, normal_rms = 0.0, normal_mean = 0.0, normal_max = 0.0,
          tangential_rms = 0.0, contact_time_ratio = 0.0;
   int impacts = 0;
+  double tangential_max = 0.0;
 };
 [[nodiscard]] MassFigures integrate(const SingleMass& mass, double step);
 

@@ -86,7 +86,7 @@ double growth(const Scene& scene) {
   return (report.energy.stored - pressed) / (0.5 * scene.v0.squaredNorm());
 }
 
-/// Three masses in a row on a spring, the middle one between two pressed stops whose dampers hold it; it sets out with a velocity that makes it let go.
+/// Three masses in a row on a spring, the middle one between two pressed stops on which it sticks by fast dampers; it starts with a velocity that makes it slip.
 Scene row_held_in_its_middle() {
   const Eigen::Vector3d masses{0.3587, 0.05764, 0.4003}; // kg
   const Eigen::Matrix3d springs{{0.1618e6, 0.1780e6, 0.2103e6},
@@ -125,7 +125,7 @@ Scene row_held_in_its_middle() {
 
 } // namespace
 
-TEST(StickingContacts, LetGoWithoutEnergyBesideAStructureAsFastAsTheStep) {
+TEST(StickingContacts, KeepTheEnergyWhereTheyStartToSlipBesideAFastStructure) {
   const Scene scene = row_held_in_its_middle();
   StepOptions options;
   options.scheme = SchemeKind::splitting;

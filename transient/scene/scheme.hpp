@@ -31,6 +31,7 @@ struct ContactState {
   double normal_square = 0.0;   ///< N2, mean over the step
   double friction_square = 0.0; ///< N2, likewise
   double peak = 0.0;            ///< N, largest normal force
+  double friction_peak = 0.0; ///< N, largest length of the friction, of schemes that know it within the step
   double deepest =
       0.0; ///< m, largest penetration beside a normal damper, of schemes that know it between positions
   double sliding = 0.0;   ///< share of the step in which it slides
@@ -61,7 +62,12 @@ struct ForcePiece {
   int contact = 0;
   double from = 0.0, to = 0.0;      ///< shares of the step between which it acts
   contact::ParabolicForce normal;   ///< N
-  std::array<double, 2> friction{}; ///< N, lengths of the vector at both ends
+  contact::ParabolicForce friction; ///< N, length of the vector: of that at both ends and of its mean
+  double friction_peak = 0.0;       ///< N: a piece of stick and slip is below its parabola
+  /// N, at a share of the piece.
+  [[nodiscard]] double friction_at(double share) const {
+    return std::clamp(friction.at(share), 0.0, friction_peak);
+  }
 };
 
 /// Normal and tangential force of a contact at an instant, N.

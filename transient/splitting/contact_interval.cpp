@@ -12,6 +12,7 @@ using contact::Vec2;
 
 /// Intervals of a step that dampers, speeds and other sides ask for at most.
 constexpr int most_intervals = limits_of(SchemeKind::splitting).intervals;
+static_assert(most_intervals <= most_at_corner, "no step has more pieces of force");
 static_assert(limits_of(SchemeKind::splitting).normal_damper.largest < contact::most_parabolic,
               "forces of impacts that dampers stop fall within an interval as parabolas");
 /// Of its clearance, what a contact may move in an interval.
@@ -24,14 +25,23 @@ constexpr int at_side_alone = 1, at_side = 2, least_at_side = 4;
 constexpr double least_cosine = 0.9, least_way = 0.4;
 /// d v of Hunt and Crossley's damper that leaves intervals as they are.
 constexpr double least_stiffer = 1.0;
-/// r_t dt of a damper that holds a contact in an interval where the structure is as fast as the step, w_s h of the contact by itself. Where such a
-/// contact lets go a free decay gains or loses as much as it dissipates at 6, 3 % of that at 4.
+/// r_t dt of a contact that sticks, at most, where w_s h of it by itself, along one direction, is above the other. Where such a contact starts to slip,
+/// intervals up to 6.3 give free decays as much energy as they dissipate, these 4 % of it (schemes.md, Limits).
 constexpr double fastest_sticking = 4.0, fast_structure = 1.0;
 /// Of an interval: what is shorter is none.
 constexpr double shortest = 1e-9;
 
 int intervals_at(double needed) {
   return static_cast<int>(std::ceil(std::min(needed, 1.0 * most_intervals)));
+}
+
+/// Whether the modes that move a contact are as fast as the step along a direction.
+bool is_fast(const ImpulseResponse& own, double step) {
+  constexpr double least = fast_structure * fast_structure;
+  for (int k = 0; k < 3; ++k)
+    if (own.v(k, k) * step * step > least * own.w(k, k))
+      return true;
+  return false;
 }
 
 } // namespace
@@ -43,8 +53,7 @@ ContactIntervals::ContactIntervals(const contact::Support& support, const Compon
       own_(own), in_plane_(in_plane), has_corners_(contact::properties_of(support.obstacle).has_parts),
       has_sides_(contact::properties_of(support.obstacle).has_opposite_sides), h_(step),
       clearance_(clearance), spring_left_(spring_left(step)), rates_(rates),
-      beside_stiff_structure_(own.v.largest() * step * step >
-                              fast_structure * fast_structure * own.w.largest()) {}
+      beside_fast_structure_(support.friction.active() && is_fast(own, step)) {}
 
 IntervalTable ContactIntervals::table(int count) const {
   IntervalTable table;
@@ -79,7 +88,7 @@ int ContactIntervals::least_count(int parts, const ContactPast& past, const Free
                                                       1.0 * most_intervals)));
   if (rates_.by_penetration > 0.0)
     parts = std::max(parts, intervals_for_dampers(path));
-  if (beside_stiff_structure_ && past.closed && !past.friction.sliding)
+  if (beside_fast_structure_ && past.closed && !past.friction.sliding)
     parts = std::max(parts, intervals_at(rates_.tangential * h_ / fastest_sticking));
   if (may_turn(past, path, way) && meets_corner(path))
     return std::max(parts, has_corners_ ? std::clamp(at_corner * parts, least_at_corner, most_at_corner)
@@ -284,7 +293,7 @@ double ContactIntervals::time_of_closing(const Motion& a, bool closed, double dt
 }
 
 /// m: of a penetration that comes from p0, v0 to p1, v1 in a time, by the cubic through both.
-double ContactIntervals::deepest(double p0, double v0, double p1, double v1, double time) {
+double ContactIntervals::deepest_of(double p0, double v0, double p1, double v1, double time) {
   double turn = 0.0;
   if (v0 > 0.0 && v1 < 0.0) {
     const double mean = (p1 - p0) / time, a = (6.0 * mean - 4.0 * v0 - 2.0 * v1) / time,
@@ -337,7 +346,7 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
   if (n.force > 0.0)
     out.departure = -last_rate;
   if (normal_.damps())
-    out.deepest = deepest(start, rate, n.end, last_rate, length);
+    out.deepest = deepest_of(start, rate, n.end, last_rate, length);
   out.damper_work = n.damper_work;
   if (closes > 0.0)
     out.damper_work += released(a.penetration, start);

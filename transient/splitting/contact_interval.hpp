@@ -196,7 +196,7 @@ private:
   [[nodiscard]] Motion motion_of(const MovingContact& m, const IntervalTable& table, int index) const;
   [[nodiscard]] static double touch_after(const Motion& a, double guess, double dt);
   [[nodiscard]] double time_of_closing(const Motion& a, bool closed, double dt) const;
-  [[nodiscard]] static double deepest(double p0, double v0, double p1, double v1, double time);
+  [[nodiscard]] static double deepest_of(double p0, double v0, double p1, double v1, double time);
   [[nodiscard]] NormalForce find_normal_force(const Motion& a, bool closed, const IntervalTable& table) const;
   void record(Passage passage, const NormalForce& n, const IntervalTable& table, int index,
               ContactCourse& course) const;
@@ -205,6 +205,9 @@ private:
   static void rotate_force(const Motion& a, const NormalForce& n, double dt, MovingContact& m);
   void find_friction(Passage passage, const Motion& a, const NormalForce& n, const IntervalTable& table,
                      MovingContact& m) const;
+  template <class V, class Friction>
+  void set_friction(ForcePiece& piece, const contact::FrictionMemory& start, const Friction& f,
+                    V velocity) const;
   template <class V, class Friction>
   void add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table, const Friction& f,
                     V velocity, MovingContact& m) const;
@@ -218,7 +221,7 @@ private:
   double h_, clearance_;
   double spring_left_; ///< share of an open contact's spring after a step
   DamperRates rates_;
-  bool beside_stiff_structure_; ///< its modes are as fast as the step
+  bool beside_fast_structure_; ///< it has friction, and modes as fast as the step
 };
 
 } // namespace fretwork::transient

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The friction of a contact over an interval, under the normal force found.
 #include "transient/splitting/contact_interval_motion.hpp"
+#include <algorithm>
+#include <type_traits>
 
 namespace fretwork::transient {
 namespace {
@@ -41,6 +43,31 @@ Vec2 in_plane(double along_t) { return {0.0, along_t}; }
 
 } // namespace
 
+/// Of a piece of normal force: the mean and, by the law, the ends. `reference` has one force in the interval.   @param start  memory there
+template <class V, class Friction>
+void ContactIntervals::set_friction(ForcePiece& piece, const contact::FrictionMemory& start,
+                                    const Friction& f, V velocity) const {
+  const double acts = (piece.to - piece.from) * h_, mean = norm(f.impulse) / acts;
+  const auto within = [&](double normal, bool sliding, double force) {
+    return std::min(friction_.coefficient(sliding) * normal, force);
+  };
+  if (friction_.kind == contact::FrictionMemoryKind::reference) {
+    piece.friction = {within(piece.normal.first, false, mean), within(piece.normal.last, false, mean), mean};
+  } else {
+    V spring;
+    if constexpr (std::is_same_v<V, double>)
+      spring = start.spring.t;
+    else
+      spring = start.spring;
+    piece.friction = {within(piece.normal.first, start.sliding, norm(friction_.trial(spring, velocity))),
+                      within(piece.normal.last, f.sliding, norm(friction_.trial(f.spring, f.velocity))),
+                      mean};
+  }
+  piece.friction_peak = f.at_changes > 0.0 || friction_.kind == contact::FrictionMemoryKind::reference
+                            ? std::max({piece.friction.first, piece.friction.last, mean, f.at_changes})
+                            : piece.friction.largest();
+}
+
 /// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
 template <class V, class Friction>
 void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table,
@@ -49,7 +76,7 @@ void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const
   const double dt = table.length, length = n.to - n.from;
   const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
   const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
-  m.piece.friction = {norm(V(mean - 0.5 * growth)), norm(V(mean + 0.5 * growth))};
+  set_friction(m.piece, m.course.past.friction, f, velocity);
   m.force = along(a.axes, n.force, force);
   m.growth = along(a.axes, n.growth,
                    (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));
@@ -58,6 +85,7 @@ void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const
                        friction_.spring_energy(f.spring) - f.slider_work - dot(mean, f.displacement) -
                        dot(V((length / 12.0) * growth), V(f.velocity - velocity));
   state.friction = state.friction + table.share * force;
+  state.friction_peak = std::max(state.friction_peak, m.piece.friction_peak);
   state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
   state.displacement = state.displacement + in_plane(f.displacement);
   state.slid += f.slid;

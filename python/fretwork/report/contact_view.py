@@ -172,7 +172,7 @@ def _about_peak(normal, counted):
 
 
 def largest_impact(run, contact):
-    """Time (s), normal and tangential force (N) about the largest normal force: at every step of the statistics window where the run kept
+    """Time (s), normal and tangential force (N) about the largest normal force: at every step of the statistics window, or within steps, where the run kept
     them, else at the output instants (of the whole run where nothing touches in the window). None where nothing touches at all."""
     if contact.largest is not None:
         time, normal, tangential = (contact.largest[name] for name in ("time", "normal_force", "tangential_force"))

@@ -45,7 +45,7 @@ class Contact:
     outline: np.ndarray | None = None  # m, (corners, 2) of a profile
     impacts: dict | None = None  # the columns of its table of impacts
     impacts_left_out: int = 0  # after the last row
-    largest: dict | None = None  # time (s), normal_force, tangential_force (N) about its largest impact, at every step
+    largest: dict | None = None  # time (s), normal_force, tangential_force (N) about its largest impact, at every step or within steps
 
 
 @dataclass

@@ -142,7 +142,7 @@ def _panel(run, contact):
 _EXPLANATION = (
     '<p class="soft">Left: position of the node from the obstacle’s centre at true scale (each axis with its own at flat obstacles), in the statistics window; dark where it stays long, '
     "orange where it touches; black: the obstacle’s reach. Middle: normal force (on paper: grey before the statistics window, orange the stretch shown at "
-    "the right). Right: the largest impact. Normal force blue, tangential force orange. Drag to zoom, double-click to show all. Orbits and histories show the output instants, the largest impact the motion within steps too; statistics see every step.</p>"
+    "the right). Right: the largest impact. Normal force blue, tangential force orange. Drag to zoom, double-click to show all. Orbits and histories show the output instants, the largest impact every step, with splitting the forces within steps; statistics see every step.</p>"
 )
 
 

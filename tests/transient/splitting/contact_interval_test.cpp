@@ -69,6 +69,29 @@ TEST(FreePath, HasTheAccelerationsOfItsIntervals) {
   EXPECT_NEAR(mean, 7e5 * h * h / 60.0, 1e-6);
 }
 
+// r_t h = 12, in parts of 4 where it sticks beside modes as fast as the step along a direction.
+TEST(ContactIntervals, AreShorterWhereAContactSticksBesideAFastStructure) {
+  const contact::Support support{contact::Stop{0.0, contact::PlaneAxis::y}, {1e6}, {1e5, 1e3, 0.3, 0.3}};
+  ImpulseResponse response = isotropic(1.0);
+  response.w.add(1, 1, 9.0); // a direction of more mobility that is slow does not hide it
+  response.v.add(0, 0, 1.01 / (step * step));
+  const DamperRates rates{0.0, 12.0 / step};
+  const auto count = [&](const contact::Support& of, const ImpulseResponse& own, bool sliding,
+                         bool pressed = true) {
+    ContactPast past = closed({-1.0, 0.0});
+    past.closed = pressed;
+    past.friction.sliding = sliding;
+    return ContactIntervals(of, {}, own, true, step, 1e-3, rates).least_count(2, past, {});
+  };
+  EXPECT_EQ(count(support, response, false), 3);
+  EXPECT_EQ(count(support, response, true), 2);
+  EXPECT_EQ(count(support, response, false, false), 2);
+  EXPECT_EQ(count({support.obstacle, support.normal, {}}, response, false), 2);
+  response.v = {};
+  response.v.add(0, 0, 0.99 / (step * step));
+  EXPECT_EQ(count(support, response, false), 2);
+}
+
 TEST(ContactIntervals, LeaveWhatRestsAtRest) {
   constexpr double stiffness = 1e6, penetration = 1e-5, w = 20.0; // w_c h = 0.45
   const contact::Support support{contact::Circle{1e-3}, {stiffness}, {}};
