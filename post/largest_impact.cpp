@@ -47,7 +47,7 @@ void LargestImpact::Contact::add(const ForcePoint& point) {
 void LargestImpact::Contact::add(const transient::ForcePiece& piece, double start, double step,
                                  bool touched) {
   const contact::ParabolicForce &normal = piece.normal, &friction = piece.friction;
-  const double from = start + piece.from * step, to = start + piece.to * step;
+  const double from = std::max(ended, start + piece.from * step), to = start + piece.to * step;
   const bool goes_on = closed && from - ended < together * step;
   if (closed && !goes_on) // it has opened within the step
     add({ended, 0.0, 0.0});
