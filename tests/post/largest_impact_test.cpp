@@ -142,7 +142,8 @@ TEST(LargestImpact, HasTheForcesWithinSteps) {
 /// A step of more pieces than a history has points; the window begins within the impact.
 TEST(LargestImpact, HasItsPeakWhereMoreOfTheStepFollowsThanItKeeps) {
   LargestImpact impacts(1, 0.0);
-  const transient::ContactState state{.normal_force = 1.0};
+  transient::ContactState state;
+  state.normal_force = 1.0;
   constexpr int count = 700;
   std::vector<transient::ForcePiece> pieces;
   for (int i = 0; i < count; ++i)
@@ -168,7 +169,9 @@ TEST(LargestImpact, HasItsPeakWhereMoreOfTheStepFollowsThanItKeeps) {
 
 TEST(LargestImpact, HasAForceThatJumpsUp) {
   LargestImpact impacts(1, 0.0);
-  const transient::ContactState state{.normal_force = 1.0, .touches = 1};
+  transient::ContactState state;
+  state.normal_force = 1.0;
+  state.touches = 1;
   const std::vector<transient::ForcePiece> pieces{{0, 0.0, 0.5, {0.0, 4.0, 2.0}, {}},
                                                   {0, 0.5, 1.0, {5.0, 0.0, 2.5}, {}}};
   transient::Record record;
