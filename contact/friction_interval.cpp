@@ -34,6 +34,31 @@ Vec2 solve(const Sym2& m, Vec2 b) {
   const double det = m.xx * m.tt - m.xt * m.xt;
   return {(m.tt * b.x - m.xt * b.t) / det, (m.xx * b.t - m.xt * b.x) / det};
 }
+/// LinearTerms along the directions of a plane.
+template <class M> struct Terms { M stiffness, damping, end; };
+/// So much of the mobility that a table is of that its c' holds.
+constexpr double same_mobility = 0.01;
+Terms<double> terms_of(const FrictionLaw& law, const StickTable& t, double table_mobility, double mobility) {
+  const double z = law.damping * mobility * t.length;
+  const double growing = std::abs(mobility - table_mobility) <= same_mobility * table_mobility
+                             ? t.growing
+                             : growing_damping(law.damping, z);
+  const LinearTerms of = linear_terms(law.stiffness, mobility, t.half / 6.0, z, growing);
+  return {of.stiffness, of.damping, of.end};
+}
+/// Function of a tensor by its values at the eigenvalues.
+Sym2 with_values(const Sym2& a, double middle, double radius, double low, double high) {
+  const double mean = 0.5 * (low + high), slope = radius > 0.0 ? 0.5 * (high - low) / radius : 0.0;
+  return {mean + slope * (a.xx - middle), slope * a.xt, mean + slope * (a.tt - middle)};
+}
+Terms<Sym2> terms_of(const FrictionLaw& law, const StickTable& t, double table_mobility, const Sym2& a) {
+  const double middle = 0.5 * (a.xx + a.tt), radius = std::hypot(0.5 * (a.xx - a.tt), a.xt);
+  const Terms<double> low = terms_of(law, t, table_mobility, middle - radius),
+                      high = terms_of(law, t, table_mobility, middle + radius);
+  return {with_values(a, middle, radius, low.stiffness, high.stiffness),
+          with_values(a, middle, radius, low.damping, high.damping),
+          with_values(a, middle, radius, low.end, high.end)};
+}
 /// Direction of the f of a length with (1 + s A + l) f = b, l >= 0.
 Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   if (!(length > 0.0) || (a.xt == 0.0 && a.xx == a.tt))
@@ -46,10 +71,7 @@ StickTable stick_of(const FrictionLaw& law, double mobility, double length) {
   t.length = length;
   t.half = 0.5 * length * length;
   t.growing = growing_damping(law.damping, law.damping * mobility * length);
-  t.lag = law.stiffness * length * length / 12.0;
-  if (t.lag * mobility > most_bent)
-    t.lag = most_bent / mobility;
-  t.gradient = 0.5 * law.stiffness + law.damping / length;
+  t.rate = law.damping / length;
   return t;
 }
 SlipTable slip_of(const FrictionLaw& law, double length) {
@@ -159,34 +181,47 @@ private:
   [[nodiscard]] V acceleration(double time) const { return acceleration_ + (0.5 * time) * path_.jerk; }
   /// m: without friction, and without what a damper adds that answers the velocity.
   [[nodiscard]] V free_displacement(double time) const {
-    return time * (out_.velocity + (0.5 * time) * acceleration(time) - (time * time / 12.0) * path_.jerk);
+    return time * (out_.velocity + (0.5 * time) * acceleration(time) - (time * time / 12.0) * path_.jerk) +
+           fourth_of(time) * path_.shift;
   }
   [[nodiscard]] V velocity_after(double time, V force) const {
     return out_.velocity + time * (acceleration(time) + path_.mobility * force);
   }
 
-  void move_sticking(const StickTable& t, const M& straight, const M& answer, V free, Piece& p) const {
+  void move_sticking(const StickTable& t, const Terms<M>& terms, const M& straight, const M& answer, V free,
+                     Piece& p) const {
     p.by = solve(straight, V(free + answer * (path_.mobility * p.force)));
     p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring - law_.stiffness * p.by;
-    p.growth = (-12.0 * t.lag / (t.length * t.length)) * p.by - t.growing * (p.velocity - out_.velocity);
+    p.growth = -1.0 * (terms.stiffness * p.by + terms.damping * V(p.velocity - out_.velocity));
   }
+  /// Of what grows as the fourth power of the time.
+  [[nodiscard]] double fourth_of(double time) const {
+    return time == length_ ? 1.0 : fourth_power(time / length_);
+  }
+  /// In a plane for mobilities and compliances of the same axes; of others to their commutator, of the order of Y.
   [[nodiscard]] Piece sticking(const StickTable& t) const {
     Piece p;
-    const double damped = t.growing * t.length * t.half / 6.0; // c' tau^3/12
-    const M straight = plus(1.0, M(-t.lag * path_.mobility)),
-            answer = plus(t.half, M(damped * path_.mobility));
-    const V a = acceleration(t.length), free = free_displacement(t.length) + damped * (path_.mobility * a);
-    const V pulled = straight * V(out_.spring + t.lag * a);
+    const double fourth = fourth_of(t.length), twelfth = t.half / 6.0;
+    const Terms<M> terms = terms_of(law_, t, mobility_, path_.mobility);
+    const M& k = terms.stiffness;
+    const M compliance = fourth * path_.compliance,
+            by_growth = twelfth * path_.mobility + (-1.0) * compliance,  // m/N
+        damped = t.length * symmetric_product(terms.damping, by_growth), // s2
+        straight = plus(1.0, M(-1.0 * symmetric_product(k, by_growth))), answer = plus(t.half, damped),
+            gradient = plus(t.rate,
+                            M(law_.stiffness * terms.end + 0.625 * symmetric_product(square(k), compliance)));
+    const V a = acceleration(t.length), free = free_displacement(t.length) + damped * a;
+    const V pulled = straight * V(out_.spring + k * V(twelfth * a - fourth * path_.lift));
     p.force =
-        solve(M(square(straight) + t.gradient * (t.half * path_.mobility + damped * square(path_.mobility))),
-              V(pulled - t.gradient * free));
+        solve(M(square(straight) + symmetric_product(gradient, symmetric_product(answer, path_.mobility))),
+              V(pulled - gradient * free));
     p.normal = normal_after(t.length);
     const double bound = law_.mu_static * mean_normal(t.length, p.normal), length = norm(p.force);
     if (length >
         bound) // the mean: of what is undecided after many pieces, of a bound that is touched at both ends, or passed near the end
       p.force = (bound / length) * p.force;
-    move_sticking(t, straight, answer, free, p);
+    move_sticking(t, terms, straight, answer, free, p);
     return p;
   }
   void stick(bool last) {
@@ -257,7 +292,8 @@ private:
     p.normal = normal_after(t.length);
     p.force = mu * mean_normal(t.length, p.normal) * mean;
     p.growth = mu * (p.normal * p.along - normal_ * before);
-    p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth));
+    p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth)) +
+           fourth_of(t.length) * (path_.compliance * p.growth);
     p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
     return p;
@@ -304,7 +340,8 @@ private:
     const double decaying =
         dot(out_.spring, before) - mu * normal_ + lag * (growth + 6.0 * b + 12.0 * lag * b);
     const double work = -dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring))) -
-                        growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) +
+                        growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) -
+                                  dot(path_.lift_under(p.force, p.growth, fourth_of(t.length)), before) +
                                   (t.relaxed * (t.share - 0.5) * decaying - b) / law_.stiffness);
     out_.slider_work += std::max(0.0, work); // below 0 only where nothing is resolved
     pass(t.length, p);

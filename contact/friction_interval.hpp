@@ -2,9 +2,10 @@
 /// @file
 /// Friction of one contact (friction_law.hpp, `return_map`) over an interval in which its normal force N is a parabola in time. The contact moves
 /// under a force of friction with the mean F and the growth G (normal_interval.hpp), over a time tau from the velocity v, by
-///     dx = tau v + tau^2 (a/2 + j tau/6 + A (F/2 - G/12)),    v1 = v + tau (a + j tau/2 + A F)
-/// A its mobility. The interval is made in pieces of stick and slip, each of which ends where the law says so:
-///     stick  F = T - K_T (dx/2 - tau (v1 - v)/12) - C_T dx/tau,   G = -K_T dx - c' (v1 - v);   T1 = T - K_T dx;
+///     dx = tau v + tau^2 (a/2 + j tau/6 + W (F/2 - G/12)) + Y G + S,    v1 = v + tau (a + j tau/2 + W F)
+/// W its mobility. Y, the lift L of the mean of its displacement above the parabola through its ends, and S, what moves only the end, are those of the interval
+/// by the fourth power of tau over it; in a plane K_T', c' and A are tensors with the axes of W. The interval is made in pieces of stick and slip, each of which ends where the law says so:
+///     stick  F = T - A K_T dx + K_T' (tau (v1 - v)/12 - L - Y (F + 5 K_T' dx/8)) - C_T dx/tau,   G = -K_T' dx - c' (v1 - v);   T1 = T - K_T dx;
 ///            until |T - C_T v| reaches mu_s N
 ///     slip   F: mu_d times the mean of N, G: its growth;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
 /// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is a
@@ -23,15 +24,21 @@ template <class V, class M> struct TangentialPath {
   V acceleration; ///< m/s2, without friction, at the start
   V jerk;         ///< m/s3, without friction
   M mobility;     ///< 1/kg
+  V lift{};       ///< m, L over the whole interval
+  M compliance{}; ///< m/N, Y over the whole interval
+  V shift{};      ///< m, S over the whole interval
+  /// m: what the mean of the displacement exceeds that of the parabola by, under a force; of a piece the fourth power of its share.
+  [[nodiscard]] V lift_under(V mean, V growth, double fourth = 1.0) const {
+    return fourth * (lift + compliance * V(mean - 0.625 * growth));
+  }
 };
 
 /// What the law needs of a piece of a given length in which the contact sticks.
 struct StickTable {
-  double length;   ///< tau, s
-  double half;     ///< tau^2/2, s2
-  double lag;      ///< K_T tau^2/12, kg, as far as most_bent allows
-  double growing;  ///< c', N s/m
-  double gradient; ///< K_T/2 + C_T/tau, N/m
+  double length;  ///< tau, s
+  double half;    ///< tau^2/2, s2
+  double growing; ///< growing_damping, N s/m
+  double rate;    ///< C_T/tau, N/m
 };
 /// Likewise of one in which it slips.
 struct SlipTable {

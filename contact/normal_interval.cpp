@@ -28,22 +28,27 @@ struct MeanForce {
 
 } // namespace
 
-NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double growing,
-                                    const NormalPath& path) {
+NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility, double compliance,
+                                    double growing, const NormalPath& path) {
   const double p0 = path.start, v0 = path.rate, k = law.stiffness;
   NormalInterval out;
   out.end = path.end;
   if (path.end <= 0.0 && p0 == 0.0 && v0 <= 0.0)
     return out;
-  const double bent = std::min(most_bent, k * mobility * dt * dt / 12.0), straight = 1.0 - bent;
-  const double lag = mobility > 0.0 ? bent / mobility : k * dt * dt / 12.0; // K_N dt^2/12, kg
-  const double growing_share = growing * mobility * dt / 12.0;              // beta - 1/2
+  const double twelfth = dt * dt / 12.0;
+  const auto [stiffness, damping, end_share] =
+      linear_terms(k, mobility, twelfth, law.damping * mobility * dt, growing);
+  const double lag = stiffness * twelfth;                   // kg
+  const double by_growth = mobility * twelfth - compliance; // m/N
+  const double straight = 1.0 - stiffness * by_growth;
+  const double growing_share = damping * by_growth / dt; // beta - 1/2
   const double by_force = (0.5 + growing_share) * mobility * dt * dt, c = law.damping / dt;
   const double free_end = path.end + growing_share * dt * dt * path.acceleration;
   const double n0 = std::max(0.0, k * p0 + law.damping_at(p0) * v0);
   double p1 = 0.0, v1 = 0.0, growth = 0.0;
   bool stiff = law.damping * mobility * dt > most_parabolic;
-  const double free = k * p0 - lag * path.acceleration, gradient = 0.5 * k + c;
+  const double free = k * p0 + stiffness * path.lift - lag * path.acceleration,
+               gradient = end_share * k + c + 0.625 * stiffness * stiffness * compliance;
   if (law.dissipation == 0.0) { // linear
     out.force = (straight * free + gradient * (free_end - p0)) / (straight * straight + gradient * by_force);
     p1 = p0 + (free_end - p0 - by_force * out.force) / straight;
@@ -52,8 +57,8 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     // p1 by the growth of the force of d, as far as it is resolved
     const double d = k * law.dissipation,
                  fastest = std::max(std::abs(v0), std::abs(v0 + dt * path.acceleration));
-    double bend = mobility * dt * dt * d / 12.0;
-    if (bend * fastest > most_bent) {
+    double bend = by_growth * d;
+    if (std::abs(bend) * fastest > most_bent) {
       bend = 0.0;
       stiff = true;
     }
@@ -71,13 +76,10 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
               (gradient + falling) * by / straight};
     });
     (void)move(out.force);
-    growth = bend > 0.0 ? d * (p1 * v1 - p0 * v0) : 0.0;
+    growth = bend != 0.0 ? d * (p1 * v1 - p0 * v0) : 0.0;
   }
-  growth += 12.0 * lag / (dt * dt) * (p1 - p0) + growing * (v1 - v0);
-  // The bend of the law's course alone: a gap that is no straight function of the position changes how the force grows.
-  const double bow = law.damping_at(0.5 * (p0 + p1)) * mobility * dt * growth / 12.0 -
-                     k * (v1 - v0) * (dt + 3.0 * law.dissipation * (p1 - p0)) / 12.0;
-  out.course = {n0, 2.0 * (out.force - bow) - n0, out.force};
+  growth += stiffness * (p1 - p0) + damping * (v1 - v0);
+  out.course = {n0, k * p1 + law.damping_at(p1) * v1, out.force};
   out.to = 1.0;
   if (stiff)
     out.course = {out.force, out.force, out.force};
@@ -92,7 +94,7 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     const double moment = to * to * (n0 / 2.0 + to * (slope / 3.0 + to * curve / 4.0)); // about the start
     growth = 12.0 * moment - 6.0 * out.force;
     out.course = {n0, 0.0, to > 0.0 ? out.force / to : 0.0};
-    p1 = path.end - mobility * dt * dt * (0.5 * out.force - growth / 12.0);
+    p1 = path.end - 0.5 * mobility * dt * dt * out.force + by_growth * growth;
     v1 = v0 + dt * (path.acceleration - mobility * out.force);
   }
   out.end = p1;
@@ -104,8 +106,9 @@ NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobi
     return out;
   }
   out.growth = growth;
-  out.damper_work =
-      out.force * (p1 - p0) + growth * dt / 12.0 * (v1 - v0) + law.spring_energy(p0) - law.spring_energy(p1);
+  // first moment of the rate, about the middle
+  const double moment = dt / 12.0 * (v1 - v0) - path.lift + compliance * (out.force - 0.625 * growth);
+  out.damper_work = out.force * (p1 - p0) + growth * moment + law.spring_energy(p0) - law.spring_energy(p1);
   return out;
 }
 

@@ -2,16 +2,17 @@
 /// @file
 /// The normal force of one contact over an interval dt at whose start it is closed, of its penetrations p0 >= 0, p1 and their rates v0, v1 at both
 /// ends, <p> = max(p, 0):
-///     mean      F = K_N P + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt,   P = (p0 + p1)/2 - (v1 - v0) dt/12
-///     course    the parabola from N0 = K_N p0 + c(p0) v0 with the mean F and the bend of that law; the force ends where it does
-///     growth    G = K_N (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0)
-///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12),   v1 = v0 + (a - W F) dt
-/// a: p'' without this force; W: mobility of the contact along its normal, 1/kg; c': growing_damping.
+///     mean      F = K_N (p0 + A (p1 - p0)) + K_N' (L - Y (F - 5 K_N' (p1 - p0)/8) - (v1 - v0) dt/12) + (C_N (p1 - p0) + K_N d (<p1>^2 - p0^2)/2)/dt
+///     course    the parabola from K_N p0 + c(p0) v0 to K_N p1 + c(p1) v1 with the mean F; the force ends where it does
+///     growth    G = K_N' (p1 - p0) + c' (v1 - v0) + K_N d (p1 v1 - p0 v0)
+///     motion    p1 = p0 + v0 dt + a dt^2/2 - W dt^2 (F/2 - G/12) - Y G,   v1 = v0 + (a - W F) dt
+/// a: p'' without this force; W: mobility of the contact along its normal, 1/kg. Y, compliance, m/N: of a structure that holds forces back within the
+/// interval; L, lift: what the mean of the penetration without this force exceeds that of the parabola through its ends by. K_N', c', A: linear_terms.
 ///
-/// P is the mean of a motion that bends, G the growth of a linear force that moves the contact as far: of order 4 in x = (K_N W)^1/2 dt and C_N W dt
-/// while the contact is closed. The frequency is that of K_N to -x^4/720, a damper alone decays as e^(-C_N W dt). Without damper the energy v^2/2W +
-/// K_N p^2/2 stays the same to the last digit, a contact rests where K_N lets it rest, and neither depends on how the time is divided.
-/// Above x = 1.7, where nothing is resolved, the terms of x^2/12 stay what they are there: stable at any dt.
+/// In short intervals these are K_N, C_N and 1/2: (p0 + p1)/2 - (v1 - v0) dt/12 is the mean of a motion that bends, G the growth of a linear force that moves the
+/// contact as far. With them the end is that of an oscillator with a damper in time, to 1e-3 and better (linear_terms). Without damper, L and Y the energy v^2/2W + K_N p^2/2 stays the same
+/// to the last digit. A contact rests where K_N lets it rest, where L = Y F. Neither depends on how the time is divided. Above x = (K_N W)^1/2 dt = 1.68, where nothing
+/// is resolved, the terms of x^2/12 stay what they are there: stable at any dt.
 #pragma once
 #include "contact/normal_law.hpp"
 
@@ -47,9 +48,10 @@ struct ParabolicForce {
 /// The penetration of a contact over an interval as it is without the contact's own normal force.
 struct NormalPath {
   double start;        ///< m, >= 0
-  double end;          ///< m, start + rate dt + acceleration dt^2/2
+  double end;          ///< m
   double rate;         ///< m/s, at the start
   double acceleration; ///< m/s2
+  double lift = 0.0;   ///< m, L: 0 of the parabola from the start through the end
 };
 
 struct NormalInterval {
@@ -70,11 +72,34 @@ struct NormalInterval {
 [[nodiscard]] inline double growing_damping(double c, double z) {
   return z > 0.0 ? 12.0 * c * (implicit_share(z) - 0.5) / z : c;
 }
-/// x^2/12 of the longest interval that follows the frequency of its spring.
+/// K' W dt^2/12 of the longest interval that follows the frequency of its spring: x = 1.68.
 inline constexpr double most_bent = 0.25;
 
-/// @param dt  s   @param mobility  W, 1/kg   @param growing  c', N s/m: it may be that of another mobility than W, a larger one
+/// What stands for a spring K and a damper C in the terms of an interval.
+struct LinearTerms {
+  double stiffness; ///< N/m, K'
+  double damping;   ///< N s/m, c'
+  double end;       ///< A, the part of the end in the mean of the motion
+};
+/// Fitted to the exact solution of an oscillator: K' without C to 2e-5, 12 (1 - (x/2) cot(x/2))/(W dt^2), with z = C W dt up to 4 to 1e-3, while x is below 1.68.
+/// @param mobility  W, 1/kg, may be round-off below 0   @param twelfth  dt^2/12   @param growing  growing_damping: c' without the spring
+[[nodiscard]] inline LinearTerms linear_terms(double stiffness, double mobility, double twelfth, double z,
+                                              double growing) {
+  const double y = stiffness * mobility * twelfth;
+  LinearTerms out{stiffness * (1.0 + y * (0.2 + y * (2.0 / 35.0 + y * (3.0 / 175.0)))), growing, 0.5};
+  if (z > 0.0) {
+    const double resolved = std::min(y, most_bent), square = z * z;
+    out.stiffness /= 1.0 + square * (1.0 + resolved * (2.0 / 3.0)) / (60.0 + square / 3.0);
+    out.damping *= 1.0 + resolved * (0.4 + 0.2 * resolved) / (1.0 + square / 30.0);
+    out.end += z * resolved / (60.0 + square);
+  }
+  if (out.stiffness * mobility * twelfth > most_bent)
+    out.stiffness = most_bent / (mobility * twelfth);
+  return out;
+}
+
+/// @param dt  s   @param mobility  W, 1/kg   @param compliance  Y, m/N   @param growing  c', N s/m: it may be that of another mobility than W, a larger one
 [[nodiscard]] NormalInterval normal_over_interval(const NormalLaw& law, double dt, double mobility,
-                                                  double growing, const NormalPath& path);
+                                                  double compliance, double growing, const NormalPath& path);
 
 } // namespace fretwork::contact

@@ -56,9 +56,16 @@ inline Sym2 operator*(double s, const Sym2& a) { return {s * a.xx, s * a.xt, s *
 inline double plus(double s, double a) { return s + a; }
 inline Sym2 plus(double s, const Sym2& a) { return {s + a.xx, a.xt, s + a.tt}; }
 inline double square(double a) { return a * a; }
+/// (A B + B A)/2
+inline double symmetric_product(double a, double b) { return a * b; }
+inline Sym2 symmetric_product(const Sym2& a, const Sym2& b) {
+  return {a.xx * b.xx + a.xt * b.xt, 0.5 * (a.xt * (b.xx + b.tt) + b.xt * (a.xx + a.tt)),
+          a.xt * b.xt + a.tt * b.tt};
+}
 inline Sym2 square(const Sym2& a) {
   return {a.xx * a.xx + a.xt * a.xt, a.xt * (a.xx + a.tt), a.xt * a.xt + a.tt * a.tt};
 }
+inline double fourth_power(double a) { return square(square(a)); }
 inline Vec2 operator*(const Sym2& a, Vec2 b) { return {a.xx * b.x + a.xt * b.t, a.xt * b.x + a.tt * b.t}; }
 
 } // namespace fretwork::contact

@@ -91,6 +91,8 @@ struct ImpulseResponse {
   Mobility w; ///< 1/kg
   Mobility v; ///< 1/(kg s2)
   [[nodiscard]] Mobility over(double time) const { return w - (time * time / 12.0) * v; }
+  /// What that leaves out, m/N: a force with the mean F and the growth G over t moves the contact by Y G further, its mean by Y (F - G/8).
+  [[nodiscard]] Mobility compliance(double time) const { return (contact::fourth_power(time) / 180.0) * v; }
 };
 
 } // namespace fretwork::transient

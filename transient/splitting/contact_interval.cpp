@@ -61,6 +61,7 @@ IntervalTable ContactIntervals::table(int count) const {
   table.share = 1.0 / count;
   table.length = table.share * h_;
   table.w = own_.over(table.length);
+  table.compliance = own_.compliance(table.length);
   table.mobility = std::max({table.w(0, 0), table.w(1, 1), table.w(2, 2)});
   table.growing = contact::growing_damping(normal_.damping, normal_.damping * table.mobility * table.length);
   table.sliding_mass = apparent_mass(table, normal_.stiffness, normal_.damping);
@@ -138,6 +139,7 @@ void ContactIntervals::begin(MovingContact& m, const Components& held, const Int
   m.growth = table.length * m.course.past.rise;
   m.force = held + 0.5 * m.growth;
   m.by_held = table.w * held;
+  m.held = held;
   apply_own_force(m, table);
 }
 
@@ -159,9 +161,11 @@ void ContactIntervals::move(MovingContact& m, const IntervalTable& table) const 
   apply_own_force(m, table);
   const Components by = m.others_over(dt) + m.by_force - m.by_held,
                    growth = m.others_growth_over(dt) + m.by_growth;
-  m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth));
+  m.response = m.response + dt * (m.rate + dt * (0.5 * by - (1.0 / 12.0) * growth)) +
+               (m.others_lift_growth + table.compliance * m.growth);
   m.rate = m.rate + dt * by;
   m.others = m.others + m.others_growth;
+  m.others_lift = m.others_lift + m.others_lift_growth;
 }
 
 double ContactIntervals::force_change(const MovingContact& m, const IntervalTable& table,
@@ -232,26 +236,34 @@ ContactIntervals::Motion ContactIntervals::motion_of(const MovingContact& m, con
   a.jerk = m.path.jerk(start + 0.5 * dt) + (1.0 / dt) * m.others_growth_over(dt);
   a.acceleration = expected - m.by_force;
   const Components growth = dt * a.jerk + m.by_growth;
+  a.expected = m.force - 0.125 * m.growth;
+  a.lift = m.path.lift(dt, table.share) + m.others_lift - 0.625 * m.others_lift_growth +
+           table.compliance * (a.expected - m.held);
+  const Components lift = a.lift + 0.5 * m.others_lift_growth;
   const Components mean = m.path.displacement(start) + m.response +
-                          (0.5 * dt) * (a.velocity + (dt / 3.0) * (expected - 0.25 * growth));
+                          (0.5 * dt) * (a.velocity + (dt / 3.0) * (expected - 0.25 * growth)) + lift;
   a.half_way = a.velocity + (0.5 * dt) * (expected - 0.25 * growth);
   const contact::Location at = locate(mean);
   a.axes = at.axes();
   a.mean = mean + rest_;
   a.by_normal = table.w * Components{at.ny, at.nz, 0.0};
   a.mobility = normal(a.axes, a.by_normal);
+  a.compliance_by_normal = table.compliance * Components{at.ny, at.nz, 0.0};
+  a.compliance = normal(a.axes, a.compliance_by_normal);
   const auto of = [&](const Components& c) {
     return contact::AlongAxes{normal(a.axes, c), tangent(a.axes, c)};
   };
   const contact::NormalKinematics p = contact::normal_kinematics(
       dt, at.gap, curvature(mean), {of(a.velocity), of(a.half_way), of(expected), of(growth)});
   a.turn = p.turn;
-  a.penetration = p.penetration;
+  a.penetration = p.penetration + normal(a.axes, lift);
+  a.lift_inwards = a.compliance * normal(a.axes, a.expected) - normal(a.axes, a.lift);
   a.rate = p.rate;
   a.acceleration_inwards = p.acceleration + normal(a.axes, m.force) * a.mobility;
   a.per_interval = 1.0 / dt;
   a.bend = dt * dt * dt / 12.0 *
-           (normal(a.axes, a.jerk) + p.jerk_by_turning + a.turn.omega * tangent(a.axes, a.acceleration));
+               (normal(a.axes, a.jerk) + p.jerk_by_turning + a.turn.omega * tangent(a.axes, a.acceleration)) -
+           normal(a.axes, m.others_lift_growth);
   return a;
 }
 
@@ -322,7 +334,9 @@ ContactIntervals::NormalForce ContactIntervals::find_normal_force(const Motion& 
               : contact::growing_damping(normal_.damping, normal_.damping * table.mobility * length);
     const double mean = a.acceleration_over(closes, length);
     const double end = start + length * (rate + 0.5 * length * mean) + a.bend_over(length);
-    return contact::normal_over_interval(normal_, length, a.mobility, growing, {start, end, rate, mean});
+    const double fourth = whole ? 1.0 : contact::fourth_power(length / dt);
+    return contact::normal_over_interval(normal_, length, a.mobility, fourth * a.compliance, growing,
+                                         {start, end, rate, mean, fourth * a.lift_inwards});
   };
   double length = dt - closes;
   contact::NormalInterval n = over(length);

@@ -36,7 +36,12 @@ struct FreePath {
     const double x = per_step * time;
     return a + time * j + (1.0 - 6.0 * x * (1.0 - x) + 0.5 * share * share) * b;
   }
-  /// Its slope there, which gives the interval its displacement.
+  /// m: what the mean of an interval, a share of the step long, exceeds that of the cubic with these by.
+  [[nodiscard]] Components lift(double length, double share) const {
+    const double by = share * length;
+    return (by * by / 60.0) * b;
+  }
+  /// Slope of the acceleration there, which gives the interval its displacement.
   [[nodiscard]] Components jerk(double time) const {
     return j + (6.0 * per_step * (2.0 * per_step * time - 1.0)) * b;
   }
@@ -76,12 +81,15 @@ inline constexpr int most_at_corner = 128;
 struct MovingContact {
   int number = 0;           ///< of the contact
   bool throughout = false;  ///< it has been closed throughout the interval
+  bool is_close = false;    ///< another contact moves with it that shares much of its mobility
   double penetration = 0.0; ///< m, the largest at the ends of the interval
   FreePath path;            ///< of the modes, under the forces held
   ForcePiece piece;         ///< of the interval; of no length: the contact is open
   ContactCourse course;
   Components response, rate; ///< m, m/s: r and r' at the start of the next interval
   Components middle;         ///< m: r in the middle of the step
+  Components others_lift,
+      others_lift_growth; ///< m: Y times mean and growth, over an interval, of the forces of others that are close
   Components others,
       others_growth; ///< m/s2: by what the forces of the others differ from those held, mean and growth over an interval
   Components held_back,
@@ -90,6 +98,7 @@ struct MovingContact {
   Components force, growth;
   Components last;                         ///< N: its force at the end of an interval
   Components by_force, by_growth, by_held; ///< m/s2: W force, W growth, W held
+  Components held;                         ///< N
   /// m/s2, over the next interval: what all but its own force there, and what is held, accelerate it by; mean and growth.
   [[nodiscard]] Components others_over(double dt) const {
     return others - held_back - (0.5 * dt) * held_back_rate;
@@ -103,6 +112,7 @@ struct IntervalTable {
   double length = 0.0;   ///< dt, s
   double share = 1.0;    ///< of a step
   Mobility w;            ///< 1/kg, over(dt)
+  Mobility compliance;   ///< m/N, Y
   double mobility = 0.0; ///< 1/kg, the largest along any direction
   double growing = 0.0;  ///< N s/m, c' of normal_interval.hpp
   double apparent_mass = 0.0,
@@ -208,9 +218,9 @@ private:
   template <class V, class Friction>
   void set_friction(ForcePiece& piece, const contact::FrictionMemory& start, const Friction& f,
                     V velocity) const;
-  template <class V, class Friction>
+  template <class Path, class Friction>
   void add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table, const Friction& f,
-                    V velocity, MovingContact& m) const;
+                    const Path& path, MovingContact& m) const;
 
   const contact::Obstacle& obstacle_;
   const contact::NormalLaw normal_;

@@ -68,22 +68,24 @@ void ContactIntervals::set_friction(ForcePiece& piece, const contact::FrictionMe
                             : piece.friction.largest();
 }
 
-/// Its friction over an interval.   @param f  a FrictionInterval<V>   @param velocity  m/s, at its start
-template <class V, class Friction>
+/// Its friction over an interval.   @param f  a FrictionInterval<V>   @param path  a TangentialPath<V, M>
+template <class Path, class Friction>
 void ContactIntervals::add_friction(const Motion& a, const NormalForce& n, const IntervalTable& table,
-                                    const Friction& f, V velocity, MovingContact& m) const {
+                                    const Friction& f, const Path& path, MovingContact& m) const {
+  using V = decltype(path.velocity);
   ContactState& state = m.course.state;
   const double dt = table.length, length = n.to - n.from;
   const V mean = (1.0 / length) * f.impulse, growth = (12.0 / (length * length)) * f.moment;
   const Vec2 force = in_plane(V((1.0 / dt) * f.impulse));
-  set_friction(m.piece, m.course.past.friction, f, velocity);
+  set_friction(m.piece, m.course.past.friction, f, path.velocity);
   m.force = along(a.axes, n.force, force);
   m.growth = along(a.axes, n.growth,
                    (12.0 / (dt * dt)) * in_plane(V(f.moment + (n.from + 0.5 * (length - dt)) * f.impulse)));
   // what goes into the element and is neither stored nor taken by the slider
-  state.damper_work += friction_.spring_energy(m.course.past.friction.spring) -
-                       friction_.spring_energy(f.spring) - f.slider_work - dot(mean, f.displacement) -
-                       dot(V((length / 12.0) * growth), V(f.velocity - velocity));
+  state.damper_work +=
+      friction_.spring_energy(m.course.past.friction.spring) - friction_.spring_energy(f.spring) -
+      f.slider_work - dot(mean, f.displacement) -
+      dot(growth, V((length / 12.0) * V(f.velocity - path.velocity) - path.lift_under(mean, growth)));
   state.friction = state.friction + table.share * force;
   state.friction_peak = std::max(state.friction_peak, m.piece.friction_peak);
   state.friction_square += length / h_ * (dot(mean, mean) + dot(growth, growth) / 12.0);
@@ -116,6 +118,14 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
   const Components acceleration = a.acceleration + tau * a.jerk;
   const contact::ContactAxes& axes = a.axes;
   const Components by_t = table.w * Components{axes.nz, -axes.ny, 0.0};
+  // Y, L and S while it acts: those by its normal force in place of what was expected of it
+  const double share = by_reference ? 1.0 : length / dt, fourth = contact::fourth_power(share);
+  const Mobility compliance = fourth * table.compliance;
+  const Components compliance_by_t = compliance * Components{axes.nz, -axes.ny, 0.0};
+  const Components by_normal_growth = (fourth * share * n.growth) * a.compliance_by_normal;
+  const Components shift = fourth * m.others_lift_growth + by_normal_growth;
+  const Components lift = fourth * a.lift - compliance * a.expected +
+                          (fourth * n.force / share) * a.compliance_by_normal - 0.625 * by_normal_growth;
   const double wtt = tangent(axes, by_t), wtn = tangent(axes, a.by_normal), wnn = a.mobility;
   double vt = tangent(axes, velocity), at = tangent(axes, acceleration) + wtn * force,
          jt = tangent(axes, a.jerk) + wtn * force_dot;
@@ -136,28 +146,39 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
                  jx = a.jerk.x + a.by_normal.x * force_dot + omega * by_t.x * n.force;
     const contact::TangentialPath<Vec2, contact::Sym2> path{
         friction_.masked(Vec2{in_plane_ ? velocity.x : 0.0, vt}),
-        friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}), friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
+        friction_.masked(Vec2{in_plane_ ? ax : 0.0, at}),
+        friction_.masked(Vec2{in_plane_ ? jx : 0.0, jt}),
         friction_.masked(in_plane_ ? contact::Sym2{table.w(2, 2), by_t.x, wtt}
-                                   : contact::Sym2{0.0, 0.0, wtt})};
+                                   : contact::Sym2{0.0, 0.0, wtt}),
+        friction_.masked(Vec2{in_plane_ ? lift.x : 0.0, tangent(axes, lift)}),
+        friction_.masked(
+            in_plane_ ? contact::Sym2{compliance(2, 2), compliance_by_t.x, tangent(axes, compliance_by_t)}
+                      : contact::Sym2{0.0, 0.0, tangent(axes, compliance_by_t)}),
+        friction_.masked(Vec2{in_plane_ ? shift.x : 0.0, tangent(axes, shift)})};
     if (by_reference) {
       NormalForce whole = n;
       whole.from = 0.0;
       whole.to = dt;
       add_friction(a, whole, table, reference_friction(friction_, table.reference, memory, n.force, dt, path),
-                   path.velocity, m);
+                   path, m);
     } else {
       add_friction(a, n, table,
                    contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring,
                                                    memory.sliding, length, n.course, path),
-                   path.velocity, m);
+                   path, m);
     }
   } else {
-    const contact::TangentialPath<double, double> path{friction_.along.t * vt, friction_.along.t * at,
-                                                       friction_.along.t * jt, friction_.along.t * wtt};
+    const contact::TangentialPath<double, double> path{friction_.along.t * vt,
+                                                       friction_.along.t * at,
+                                                       friction_.along.t * jt,
+                                                       friction_.along.t * wtt,
+                                                       friction_.along.t * tangent(axes, lift),
+                                                       friction_.along.t * tangent(axes, compliance_by_t),
+                                                       friction_.along.t * tangent(axes, shift)};
     add_friction(a, n, table,
                  contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring.t,
                                                  memory.sliding, length, n.course, path),
-                 path.velocity, m);
+                 path, m);
   }
   m.course.past.spring_at_opening = dot(memory.spring, memory.spring);
   if (n.opens)

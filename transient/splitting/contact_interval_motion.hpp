@@ -10,17 +10,22 @@ namespace fretwork::transient {
 /// How a contact moves over an interval without its own force, along the normal at its mean position and across.
 struct ContactIntervals::Motion {
   contact::ContactAxes axes;
-  Components mean, half_way; ///< m, position from the obstacle's centre; m/s, velocity half way
-  Components velocity;       ///< m/s, at the start
-  Components acceleration;   ///< m/s2, mean
-  Components jerk;           ///< m/s3
-  Components by_normal;      ///< 1/kg, W n
-  double mobility = 0.0;     ///< 1/kg, n W n
+  Components mean, half_way;       ///< m, position from the obstacle's centre; m/s, velocity half way
+  Components velocity;             ///< m/s, at the start
+  Components acceleration;         ///< m/s2, mean
+  Components jerk;                 ///< m/s3
+  Components by_normal;            ///< 1/kg, W n
+  double mobility = 0.0;           ///< 1/kg, n W n
+  Components compliance_by_normal; ///< m/N, Y n
+  double compliance = 0.0;         ///< m/N, n Y n
+  Components expected;             ///< N, of its force: what moves the mean position by Y
+  Components lift;                 ///< m, of the mean position, with that
   /// The penetration is p + r t + a t^2/2 + bend x^2 (3 - 2 x), x = t/dt.
   double penetration = 0.0;          ///< p, m
   double rate = 0.0;                 ///< r, m/s
   double acceleration_inwards = 0.0; ///< a, m/s2: mean of its second derivative, under the friction expected
-  double bend = 0.0;                 ///< m: by its jerk at the end
+  double bend = 0.0;                 ///< m: by its jerk at the end, and by others' Y G
+  double lift_inwards = 0.0;         ///< m, of the mean of the penetration, under the friction expected
   double per_interval = 0.0;         ///< 1/dt
   contact::AxesTurn turn;
   [[nodiscard]] double after(double time) const {

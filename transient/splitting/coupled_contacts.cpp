@@ -11,6 +11,25 @@ namespace {
 /// that stick would gain energy.
 constexpr double most_left_out = 0.02;
 constexpr int most_passes = 40;
+/// Likewise in the first iteration of contacts that are close to others: what is left out is always of one sign, and two of one node that stay closed would gain
+/// energy by a damping ratio of 5e-5. To iterate until that is met takes 30 passes beside fast dampers.
+constexpr double most_left_out_close = 1e-4;
+/// Contacts are close where their common mobility is so much of their own: those of one node, not those of neighbouring supports. What the structure holds back by Y of
+/// the forces of others is passed on between close ones alone: between all it takes ten supports 3 to 8 % of the time and shows in no figure.
+constexpr double least_close = 0.2;
+
+/// Pairs of contacts of a block whose mobility is so much of their own.
+std::vector<char> close_pairs(const std::vector<ImpulseResponse>& responses, std::size_t count) {
+  std::vector<char> close(responses.size(), 0);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < count; ++k) {
+      const double by = responses[i * count + k].w.largest();
+      close[i * count + k] = i != k && by * by > least_close * least_close *
+                                                     responses[i * (count + 1)].w.largest() *
+                                                     responses[k * (count + 1)].w.largest();
+    }
+  return close;
+}
 
 } // namespace
 
@@ -36,8 +55,12 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     moving_blocks_[b].contacts.reserve(blocks_.contacts[b].size());
     moving_blocks_[b].mobility.resize(responses_[b].size());
+    moving_blocks_[b].compliance.resize(responses_[b].size());
     moving_blocks_[b].holds_back = std::any_of(responses_[b].begin(), responses_[b].end(),
                                                [](const ImpulseResponse& g) { return g.v.largest() > 0.0; });
+    moving_blocks_[b].close = close_pairs(responses_[b], blocks_.contacts[b].size());
+    moving_blocks_[b].has_close = std::any_of(moving_blocks_[b].close.begin(), moving_blocks_[b].close.end(),
+                                              [](char c) { return c != 0; });
     move_in_intervals_of(static_cast<int>(b), parts);
   }
   for (int c = 0; c < contacts.count; ++c) {
@@ -208,8 +231,10 @@ void CoupledContacts::move(int first, ContactTrial& trial) {
     MovingContact& m = moving_[i];
     const Components held = forces_[m.number].held;
     laws_[m.number].begin(m, held, table_of(m.number, count));
-    if (coupled)
+    if (coupled) {
+      m.is_close = has_close(m);
       pass_on(m, m.force - held, m.growth);
+    }
   }
   for (int index = 0; index < count; ++index) {
     if (coupled)
@@ -236,14 +261,31 @@ void CoupledContacts::move(int first, ContactTrial& trial) {
   }
 }
 
+/// Whether a contact moves with one that is close to it.
+bool CoupledContacts::has_close(const MovingContact& m) const {
+  for (const auto& [block, local] : blocks_.places[m.number]) {
+    const MovingBlock& of = moving_blocks_[block];
+    if (!of.has_close)
+      continue;
+    const std::size_t from = static_cast<std::size_t>(local) * blocks_.contacts[block].size();
+    for (const auto& [i, to] : of.contacts)
+      if (of.close[from + static_cast<std::size_t>(to)])
+        return true;
+  }
+  return false;
+}
+
 /// Contacts of a block that move together, through so many intervals of the step.
 void CoupledContacts::move_in_intervals_of(int block, int count) {
   MovingBlock& of = moving_blocks_[block];
   if (of.count == count)
     return;
   of.count = count;
-  for (std::size_t i = 0; i < of.mobility.size(); ++i)
+  for (std::size_t i = 0; i < of.mobility.size(); ++i) {
     of.mobility[i] = responses_[block][i].over(h_ / count);
+    if (of.close[i])
+      of.compliance[i] = responses_[block][i].compliance(h_ / count);
+  }
 }
 
 /// At the end of an interval: what the modes hold back by V, of the velocity that the forces have given in it, and of the acceleration from now on.
@@ -283,7 +325,7 @@ void CoupledContacts::find_forces_together(int first, int index) {
     for (int i = first; i >= 0; i = next_[i]) {
       MovingContact& m = moving_[i];
       if (!(laws_[m.number].force_change(m, tables_[m.number], m.others - found_for_[i]) >
-            most_left_out * change))
+            (m.is_close && pass == 1 ? most_left_out_close : most_left_out) * change))
         continue;
       again = true;
       m.course = before_[i];
@@ -311,13 +353,21 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
   if (!(sum_of_sizes(by_force) + sum_of_sizes(by_growth) > 0.0))
     return;
   for (const auto& [block, local] : blocks_.places[m.number]) {
-    const Mobility* w =
-        &moving_blocks_[block].mobility[static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
-    for (const auto& [i, to] : moving_blocks_[block].contacts)
-      if (MovingContact& other = moving_[i]; &other != &m) {
-        other.others = other.others + w[to] * by_force;
-        other.others_growth = other.others_growth + w[to] * by_growth;
+    const MovingBlock& of = moving_blocks_[block];
+    const std::size_t from = static_cast<std::size_t>(local) * blocks_.contacts[block].size();
+    for (const auto& [i, to] : of.contacts) {
+      MovingContact& other = moving_[i];
+      if (&other == &m)
+        continue;
+      const Mobility& w = of.mobility[from + static_cast<std::size_t>(to)];
+      other.others = other.others + w * by_force;
+      other.others_growth = other.others_growth + w * by_growth;
+      if (of.close[from + static_cast<std::size_t>(to)]) {
+        const Mobility& y = of.compliance[from + static_cast<std::size_t>(to)];
+        other.others_lift = other.others_lift + y * by_force;
+        other.others_lift_growth = other.others_lift_growth + y * by_growth;
       }
+    }
   }
 }
 

@@ -2,11 +2,11 @@
 /// @file
 /// The contacts over a step h of the splitting scheme: all that may be closed move together through equal intervals of it (contact_interval.hpp). In each
 /// interval one after the other finds its forces from those of the others as they are known or expected, and again where what the others have done since
-/// would make it diverge. Contact i moves by
+/// would make it diverge, contacts of one node once for less. Contact i moves by
 ///     u_i(t) = path_i(t) + r_i(t),   r_i'' = sum over k of W_ik d_k - V_ik (integral of the impulses of d_k),   d_k = f_k - held_k
 /// path: of the modes, the quartic with their mean through displacements and velocities at both ends of the step as they are under the forces `held` of
 /// the contacts that were closed (constant over the step); r: what the change of forces adds, by the impulse response of step_response.hpp, whose displacement and velocity
-/// after a step under constant forces are exact. Within an interval V acts in the mean, over(dt). What rests stays at rest, whatever h: f = held then, and the path is constant.
+/// after a step under constant forces are exact. Within an interval V acts by over(dt) and compliance(dt). What rests stays at rest, whatever h: f = held then, and the path is constant.
 ///
 /// W is known block by block (contact_blocks.hpp). Contacts that may be closed and share a block, directly or through others, make a group, whose
 /// intervals are those of its contact that asks for the most.
@@ -69,9 +69,11 @@ public:
 private:
   /// Of the contacts that move in a step those of a block, and the group that it is part of.
   struct MovingBlock {
-    std::vector<Mobility> mobility;             ///< as `responses`, over an interval
-    int count = 0;                              ///< of such a step
-    bool holds_back = false;                    ///< V is not 0
+    std::vector<Mobility> mobility, compliance; ///< as `responses`, over an interval
+    std::vector<char> close; ///< pairs of contacts, as `responses`: their mobility is much of their own
+    bool has_close = false;  ///< any
+    int count = 0;           ///< of such a step
+    bool holds_back = false; ///< V is not 0
     std::vector<ContactBlocks::Place> contacts; ///< `block`: among moving_; `local`: in the block
     int parent = 0;            ///< a block of the same group; the block itself: it stands for the group
     int first = -1, last = -1; ///< contacts of the group that it stands for, among moving_
@@ -97,6 +99,7 @@ private:
   void move(int first, ContactTrial& trial);
   void find_forces_together(int first, int index);
   double find_force(MovingContact& m, int index, int place);
+  [[nodiscard]] bool has_close(const MovingContact& m) const;
   void move_in_intervals_of(int block, int count);
   void hold_back(int first, double dt);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);

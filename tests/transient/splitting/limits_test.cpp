@@ -5,6 +5,7 @@
 #include "transient/scene/scheme_limits.hpp"
 #include <array>
 #include <numbers>
+#include <variant>
 
 namespace splitting_limits_test {
 
@@ -55,11 +56,14 @@ void expect_impact(const Figures& found, const Figures& exact, const Allowed& al
   EXPECT_NEAR(found.mean / exact.mean, 1.0, allowed.mean);
   EXPECT_NEAR(found.rebound, exact.rebound, allowed.rebound);
 }
-void expect_friction(const Scene& scene, double power, double force) {
-  const Figures found = figures_of(scene, choose_step(scene, splitting(step))), exact = reference(scene);
+void expect_friction(const Scene& scene, double power, double force, const Figures& exact) {
+  const Figures found = figures_of(scene, choose_step(scene, splitting(step)));
   EXPECT_NEAR(found.friction_power / exact.friction_power, 1.0, power);
   EXPECT_NEAR(found.work_rate / exact.work_rate, 1.0, power);
   EXPECT_NEAR(found.tangential_rms / exact.tangential_rms, 1.0, force);
+}
+void expect_friction(const Scene& scene, double power, double force) {
+  expect_friction(scene, power, force, reference(scene));
 }
 
 /// A longer step is warned about, this one is not.
@@ -221,13 +225,17 @@ TEST(SplittingLimits, OfScaledModesGiveImpactsThatTheyHaveAPartIn) {
       }
 }
 
+// Without damper runge_kutta_54 is of order 1: its work rates are still 0.1 % from those that short steps of splitting converge to.
 TEST(SplittingLimits, OfStickingContactsGiveFriction) {
+  constexpr double finer = 1.0 / 32.0;
   for (const double amplitude : {1.5, 3.0, 10.0})
     for (const double damper : {0.0, 0.2 * contact}) {
       SCOPED_TRACE(testing::Message() << "amplitude " << amplitude << ", damper " << damper);
       const Scene scene = pressed_mass(contact, damper, amplitude);
       expect_at_limit(scene);
-      expect_friction(scene, 1e-3, 5e-3);
+      const Figures fine = figures_of(scene, choose_step(scene, splitting(finer * step)));
+      expect_friction(scene, 1e-4, 1e-3, fine);
+      expect_friction(scene, damper > 0.0 ? 1e-4 : 2e-3, damper > 0.0 ? 1e-3 : 5e-3);
     }
 }
 
@@ -255,12 +263,25 @@ TEST(SplittingLimits, OfModesBesideTangentialDampersGiveFriction) {
     expect_at_limit(pressed_mass(0.5 * contact, damper, 3.0, limits.highest_mode.share, 0.5));
 }
 
+// Loads are straight lines within a step: of w_c h = 3 the largest force lacks the tips that these cut, up to 1.4 % of it.
 TEST(SplittingLimits, OfTheExcitationGiveForces) {
   const double frequency = 1.0 / (limits.points_per_period * step);
   expect_driven(Harmonic{5.0, frequency}, 1.75 / step, {1e-4, 1e-3, 1e-5, 1e-5});
   expect_driven(Random{3.0, 0.2 * frequency, frequency, 3}, 1.75 / step, {3e-4, 2e-3, 1e-5, 1e-4});
-  expect_driven(Harmonic{5.0, frequency}, contact, {3e-4, 5e-3, 1e-5, 1e-5});
-  expect_driven(Random{3.0, 0.2 * frequency, frequency, 3}, contact, {3e-4, 5e-3, 1e-5, 1e-4});
+  std::vector<TimeFunction> loads;
+  for (const double share : {1.0, 0.937, 0.71})
+    loads.push_back(Harmonic{5.0, share * frequency});
+  for (unsigned seed = 3; seed < 10; ++seed)
+    loads.push_back(Random{3.0, 0.2 * frequency, frequency, seed});
+  double squares = 0.0;
+  for (const TimeFunction& load : loads) {
+    const bool random = std::holds_alternative<Random>(load);
+    const Scene scene = driven(load, contact);
+    const Figures found = figures_of(scene, choose_step(scene, splitting(step))), exact = reference(scene);
+    expect_impact(found, exact, {random ? 3e-4 : 2e-5, random ? 1.5e-2 : 6e-3, 1e-5, random ? 1e-4 : 1e-5});
+    squares += std::pow(found.largest / exact.largest - 1.0, 2);
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(loads.size())), 7e-3);
   expect_at_limit(driven(Harmonic{5.0, frequency}, 0.9 * contact));
 }
 
