@@ -39,10 +39,10 @@ Figures figures_of(const Scene& scene, const StepChoice& choice) {
           s.friction_power, s.work_rate,  s.tangential_rms};
 }
 
-Figures reference(const Scene& scene) {
+Figures reference(const Scene& scene, double tolerance = 1e-10) {
   StepOptions options;
   options.scheme = SchemeKind::runge_kutta_54;
-  options.tolerance = 1e-10;
+  options.tolerance = tolerance;
   return figures_of(scene, choose_step(scene, options));
 }
 
@@ -225,7 +225,7 @@ TEST(SplittingLimits, OfScaledModesGiveImpactsThatTheyHaveAPartIn) {
       }
 }
 
-// Without damper runge_kutta_54 is of order 1: its work rates are still 0.1 % from those that short steps of splitting converge to.
+// Without damper runge_kutta_54 is of order 1 and needs a finer tolerance: at 1e-10 its work rates are 0.1 % from those that short steps of splitting converge to.
 TEST(SplittingLimits, OfStickingContactsGiveFriction) {
   constexpr double finer = 1.0 / 32.0;
   for (const double amplitude : {1.5, 3.0, 10.0})
@@ -235,7 +235,8 @@ TEST(SplittingLimits, OfStickingContactsGiveFriction) {
       expect_at_limit(scene);
       const Figures fine = figures_of(scene, choose_step(scene, splitting(finer * step)));
       expect_friction(scene, 1e-4, 1e-3, fine);
-      expect_friction(scene, damper > 0.0 ? 1e-4 : 2e-3, damper > 0.0 ? 1e-3 : 5e-3);
+      expect_friction(scene, damper > 0.0 ? 1e-4 : 1e-3, damper > 0.0 ? 1e-3 : 5e-3,
+                      reference(scene, damper > 0.0 ? 1e-10 : 1e-12));
     }
 }
 
