@@ -14,9 +14,10 @@ constexpr double whole_error = 2.0;
 constexpr double first_pause = 6.0, growth = 1.1, longest_pause = 40.0;
 /// Varies the pauses, so that no period of the loads is met again and again at one phase.
 constexpr double golden = 0.6180339887498949;
-/// Of the accuracy: an error that takes finer intervals (of order 2 it is half of the accuracy), and by how many standard errors it is to stand out. Six figures are looked at after each
-/// replay, so that chance alone makes 2 standard errors sooner or later; 3 take 10 replays at least.
-constexpr double tolerated = 0.75, significance = 3.0;
+/// Of the accuracy: an error that takes finer intervals (of order 2 it is half of the accuracy), by how many standard errors it is to exceed that, and by how many to stand out.
+/// Six figures of each contact are looked at after each replay, and one contact divides the step of all that it moves: where only the error itself has to be above
+/// the share, chance refines ten contacts of half of the accuracy in most runs. Three standard errors take 10 replays at least.
+constexpr double tolerated = 0.75, surely = 2.0, significance = 3.0;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
@@ -150,7 +151,7 @@ private:
   [[nodiscard]] bool is_coarse(const Evidence& e) const {
     for (std::size_t k = 0; k < replayed_figures; ++k)
       if (const double error = std::abs(e.error(k));
-          statistic_share(k) * error > tolerated * options_.accuracy * e.sums[k] &&
+          statistic_share(k) * (error - surely * e.spread(k)) > tolerated * options_.accuracy * e.sums[k] &&
           error > significance * e.spread(k))
         return true;
     return false;

@@ -6,8 +6,8 @@
 /// replay's part of it differs. Then
 ///     error = 2 d/s +- 2 (sum of d^2)^1/2/s
 /// the error that the step makes in that time (of impacts, which are counted, with one more in the sum of d^2); statistics of long runs may keep less of it, for a contact that slips too far sticks the longer.
-/// 2: of errors of order 1 half the interval takes away a half; of higher orders more, and the error told is too large. Contacts whose error is
-/// significant and above three quarters of the accuracy are moved in twice as many intervals from then on.
+/// 2: of errors of order 1 half the interval takes away a half; of higher orders more, and the error told is too large. Contacts whose error
+/// exceeds three quarters of the accuracy by two standard errors are moved in twice as many intervals from then on.
 #pragma once
 #include "transient/splitting/splitting.hpp"
 

@@ -238,8 +238,11 @@ private:
   Record record_;
 };
 
-/// Intervals a step of a run whose steps, by their size, are off by these shares of what the replays have.
-int refined_to(double of_square, double of_impulse) {
+constexpr int few = 20'000, many = 2'000'000; // steps: 48 replays, and a hundred times as many
+
+/// Intervals a step of a run whose steps, by their size, are off by these shares of what the replays have: the standard error is the error over the square
+/// root of the replays.
+int refined_to(double of_square, double of_impulse, int steps = many) {
   int parts = 1;
   ContactState replayed;
   replayed.normal_force = replayed.normal_square = replayed.closed = 1.0;
@@ -250,7 +253,7 @@ int refined_to(double of_square, double of_impulse) {
       make_replayed(std::make_unique<Unchanging>(2.0 * step, run, &parts),
                     std::make_unique<Unchanging>(step, replayed, &parts),
                     {.accuracy = 0.01, .length = 20.0 * step, .contacts = 1, .parts = 1, .most_parts = 8});
-  for (int i = 0; i < 20'000; ++i)
+  for (int i = 0; i < steps; ++i)
     (void)scheme->advance();
   return parts;
 }
@@ -261,9 +264,16 @@ int refined_to(double of_square, double of_impulse) {
 TEST(Replays, RefineByTheErrorsOfStatistics) {
   EXPECT_EQ(refined_to(0.0, 0.0), 1);
   EXPECT_EQ(refined_to(0.0, 0.0036), 1);
-  EXPECT_EQ(refined_to(0.0, 0.0039), 8);
+  EXPECT_EQ(refined_to(0.0, 0.004), 8);
   EXPECT_EQ(refined_to(0.0072, 0.0), 1);
-  EXPECT_EQ(refined_to(-0.0078, 0.0), 8);
+  EXPECT_EQ(refined_to(-0.008, 0.0), 8);
+}
+
+// By two standard errors: 64 replays of an error of the whole accuracy, 16 of one and a half.
+TEST(Replays, RefineWhereAnErrorIsSurelyTooLarge) {
+  EXPECT_EQ(refined_to(0.0, 0.005, few), 1);
+  EXPECT_EQ(refined_to(0.0, 0.005), 8);
+  EXPECT_EQ(refined_to(0.0, 0.0075, few), 8);
 }
 
 TEST(Replays, GoOnAfterARestartBitForBit) {
