@@ -352,14 +352,16 @@ TEST(FrictionInterval, SticksAndSlipsOnAStructureThatHoldsItBack) {
   EXPECT_NEAR(dot(g.impulse, along), f.impulse, 1e-12);
   EXPECT_NEAR(dot(g.spring, along), f.spring, 1e-12);
 
-  // a force that grows takes a contact that slips further by Y G; the lift means nothing to it
+  // a force that grows takes a contact that slips further by Y G; the lift leaves its motion at the end as it is, but the less of the force has been there on the way
   const FrictionLaw slipping{stiffness, 0.0, 0.5, 0.5};
-  const auto slip = [&](double y) {
+  const auto slip = [&](double y, double lifted) {
     return friction_over_interval(slipping, piece_tables(slipping, mobility, dt), mobility, -0.5, true, dt,
-                                  line(1.0, 2.0), {3.0, 0.0, 0.0, mobility, lift, y});
+                                  line(1.0, 2.0), {3.0, 0.0, 0.0, mobility, lifted, y});
   };
-  EXPECT_EQ(slip(0.0).sliding_time, dt);
-  EXPECT_NEAR(slip(compliance).displacement - slip(0.0).displacement, -0.5 * compliance, 1e-12);
+  EXPECT_EQ(slip(0.0, lift).sliding_time, dt);
+  EXPECT_NEAR(slip(compliance, lift).displacement - slip(0.0, lift).displacement, -0.5 * compliance, 1e-12);
+  EXPECT_NEAR(slip(0.0, lift).displacement - slip(0.0, 0.0).displacement, 0.0, 1e-15);
+  EXPECT_NEAR(slip(0.0, lift).slider_work - slip(0.0, 0.0).slider_work, -0.5 * lift, 1e-12);
 }
 
 TEST(FrictionInterval, TakesAParabolaOfTheNormalForceAsManyShortIntervals) {
