@@ -362,6 +362,46 @@ double Signal::mean(const Table& table, double from, double to) const {
   return sum / (to - from);
 }
 
+InStep Signal::in_step(double from, double to) const {
+  if (const auto* constant = std::get_if<Constant>(&function_))
+    return {constant->value, 0.0, 0.0};
+  if (const auto* table = std::get_if<Table>(&function_))
+    return in_step(*table, from, to);
+  const double root = std::sqrt(5.0), middle = 0.5 * (from + to), inner = 0.5 * (to - from) / root;
+  const double first = (*this)(from), before = (*this)(middle - inner), after = (*this)(middle + inner),
+               last = (*this)(to);
+  const double ends = first + last, inside = before + after;
+  return {(ends + 5.0 * inside) / 12.0, 0.25 * (last - first + root * (after - before)),
+          5.0 / 12.0 * (ends - inside)};
+}
+
+/// The lines of a table piece by piece, each by Simpson's rule.
+InStep Signal::in_step(const Table& table, double from, double to) const {
+  const auto& t = table.time;
+  const double middle = 0.5 * (from + to), per_half = 2.0 / (to - from);
+  InStep out;
+  auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), from) - t.begin());
+  double x = -1.0, value = (*this)(from);
+  const auto up_to = [&](double end, double value_there) {
+    const double share = (end - x) / 12.0; // of the half step, by 6 of Simpson's rule
+    const auto add = [&](double weight, double at, double v) {
+      out.mean += weight * share * v;
+      out.slope += 3.0 * weight * share * at * v;
+      out.bend += 2.5 * weight * share * (3.0 * at * at - 1.0) * v;
+    };
+    add(1.0, x, value);
+    add(4.0, 0.5 * (x + end), 0.5 * (value + value_there));
+    add(1.0, end, value_there);
+    x = end;
+    value = value_there;
+  };
+  for (; i < t.size() && t[i] < to; ++i) // at a jump an interval of no length
+    up_to(per_half * (t[i] - middle), table.value[i]);
+  const bool before_jump = i < t.size() && t[i] == to;
+  up_to(1.0, before_jump ? table.value[i] : (*this)(to));
+  return out;
+}
+
 double static_value(const TimeFunction& function, double duration) {
   return std::holds_alternative<Random>(function) ? 0.0 : Signal(function, duration)(0.0);
 }

@@ -92,16 +92,11 @@ struct SampleGrid {
     const double s = position - static_cast<double>(interval), rest = 1.0 - s;
     return {interval, s * s * (3.0 - 2.0 * s), s * rest * rest, -s * s * rest};
   }
-  /// The value less h^2/12 of the second derivative there: what lines between values h apart take off a smooth signal.
-  [[nodiscard]] Place corner(double time, double h) const {
-    Place p = place(time);
-    const double s = time * per_step - static_cast<double>(p.interval),
-                 c = h * h * per_step * per_step / 12.0;
-    p.next -= c * (6.0 - 12.0 * s);
-    p.slope -= c * (6.0 * s - 4.0);
-    p.next_slope -= c * (6.0 * s - 2.0);
-    return p;
-  }
+};
+
+/// A function over a step by Legendre's polynomials: mean + slope x + bend (3 x^2 - 1)/2, x from -1 to 1, with its mean, first and second moment.
+struct InStep {
+  double mean = 0.0, slope = 0.0, bend = 0.0;
 };
 
 class MotionSignal;
@@ -126,6 +121,9 @@ public:
   /// shorter (a jump: 0) meets the window the mean over the window: windows side by side keep the impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h, Window window) const;
 
+  /// Over a step: a table exactly, jumps inside of it too; others by Lobatto's rule of four points, exact to degree 5. No allocation.
+  [[nodiscard]] InStep in_step(double from, double to) const;
+
   /// Of a random signal: values and slopes times the grid's step, interleaved. Else empty.
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
   [[nodiscard]] const SampleGrid& grid() const { return grid_; }
@@ -142,6 +140,7 @@ public:
 
 private:
   [[nodiscard]] double mean(const Table& table, double from, double to) const;
+  [[nodiscard]] InStep in_step(const Table& table, double from, double to) const;
 
   TimeFunction function_;
   std::shared_ptr<const MotionSignal> motion_; ///< of an integral: what moves with that velocity

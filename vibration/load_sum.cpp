@@ -3,15 +3,9 @@
 #include "signals/record.hpp"
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace fretwork::vibration {
 namespace {
-
-/// pi f h up to which a polygon is taken to follow a harmonic load.
-constexpr double most_corrected = 0.5;
-/// Likewise a random one, in intervals of its samples, of which there are 32 a period.
-constexpr double most_grid_steps = 5.0;
 
 /// Steps beyond the end of a run, or of a record, after which the last value stays.
 constexpr std::size_t corners_beyond = 64;
@@ -25,15 +19,10 @@ std::vector<double> polygon_of(const signals::TimeFunction& function, double dur
                                   static_cast<std::size_t>(std::ceil(end / step)) + corners_beyond);
 }
 
-/// @param half_turn  pi f times the distance of corners
-double height_of_corner(double half_turn) {
-  return half_turn > 0.0 && half_turn < most_corrected ? std::pow(half_turn / std::sin(half_turn), 2) : 1.0;
-}
-
 } // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-                 const std::vector<signals::SampledLoad>& sampled, Corners corners)
+                 const std::vector<signals::SampledLoad>& sampled, Steps steps)
     : modes_(modes), padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step),
       observed_(static_cast<std::size_t>(padded_modes_)) {
   std::vector<const signals::TimeFunction*> functions;
@@ -46,22 +35,23 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     if (same == functions.end()) {
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
-      const auto* harmonic = std::get_if<signals::Harmonic>(&load.function);
-      half_rates_.push_back(harmonic ? std::numbers::pi * harmonic->frequency : 0.0);
-      above_.push_back(height_of_corner(half_rates_.back() * step));
-      polygons_.push_back(corners == Corners::used ? polygon_of(load.function, duration, step)
-                                                   : std::vector<double>());
+      polygons_.push_back(steps == Steps::used ? polygon_of(load.function, duration, step)
+                                               : std::vector<double>());
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
+      bends_ = bends_ || !(signals_.back().is_constant() || !polygons_.back().empty());
     }
     for (Eigen::Index i = 0; i < modes; ++i)
       shapes_[source * padded_modes_ + i] += load.modal_force(i);
   }
-  values_.resize(signals_.size());
+  for (kernels::Array* a : {&values_, &first_, &last_, &bend_})
+    a->resize(signals_.size());
   for (const signals::SampledLoad& load : sampled)
     if (load.acts())
       sampled_.emplace_back(load);
   constant_ = constant_ && sampled_.empty();
+  if (!sampled_.empty())
+    sampled_at_end_.resize(static_cast<std::size_t>(padded_modes_));
 }
 
 template <class Value, class Place>
@@ -106,23 +96,50 @@ void LoadSum::observe(double time, double* force) {
   std::copy_n(observed_.begin(), modes_, force);
 }
 
-double LoadSum::above(std::size_t signal, double length) const {
-  return length == step_ ? above_[signal] : height_of_corner(half_rates_[signal] * length);
+signals::InStep LoadSum::in_step(std::size_t signal, double start, double length) const {
+  const std::vector<double>& polygon = polygons_[signal];
+  if (polygon.empty())
+    return signals_[signal].in_step(start, start + length);
+  const auto corner = [&](double time) {
+    return polygon[std::min(static_cast<std::size_t>(std::llround(time / step_)), polygon.size() - 1)];
+  };
+  const double first = corner(start), last = corner(start + length);
+  return {0.5 * (first + last), 0.5 * (last - first), 0.0};
 }
 
-void LoadSum::corner(double time, double length, double* force) {
-  const signals::Signal::Window window = signals::Signal::window(time, step_);
-  const auto corner = static_cast<std::size_t>(std::llround(time / step_));
-  combine(
-      time,
-      [&](const signals::SampleGrid& grid) {
-        return length * grid.per_step < most_grid_steps ? grid.corner(time, length) : grid.place(time);
-      },
-      [&](std::size_t k) {
-        return polygons_[k].empty() ? above(k, length) * signals_[k].over_step(time, step_, window)
-                                    : polygons_[k][std::min(corner, polygons_[k].size() - 1)];
-      },
-      force);
+void LoadSum::in_step(double start, double length, double* load0, double* load1, double* bend) {
+  for (std::size_t k = 0; k < signals_.size(); ++k) {
+    const signals::InStep of = in_step(k, start, length);
+    first_[k] = of.mean - of.slope;
+    last_[k] = of.mean + of.slope;
+    bend_[k] = of.bend;
+  }
+  const auto sum = [&](const kernels::Array& values, double* force) {
+    if (signals_.empty())
+      std::fill_n(force, padded_modes_, 0.0);
+    else
+      kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values.data(),
+                       force);
+  };
+  sum(first_, load0);
+  sum(last_, load1);
+  if (bend)
+    sum(bend_, bend);
+  if (sampled_.empty())
+    return;
+  add_sampled(start, load0);
+  add_sampled(start + length, load1);
+}
+
+void LoadSum::add_sampled(double time, double* force) {
+  if (time != sampled_time_) {
+    std::fill(sampled_at_end_.begin(), sampled_at_end_.end(), 0.0);
+    for (signals::SampledForce& sampled : sampled_)
+      sampled.add(time, sampled_at_end_.data());
+    sampled_time_ = time;
+  }
+  for (std::size_t i = 0; i < sampled_at_end_.size(); ++i)
+    force[i] += sampled_at_end_[i];
 }
 
 } // namespace fretwork::vibration

@@ -46,8 +46,10 @@ public:
   };
   /// Sets z for the start of a run.
   void start(State& state) const { state.z.assign(states_.size(), 0.0); }
-  /// Modal force of the loads about a time, an end of a step of `length` s (LoadSum::corner); `load` stays where there are none. No allocation.
-  void load_about(double time, double length, kernels::Array& load);
+  /// Modal forces of the loads in a step of `length` s (LoadSum::in_step); they stay where there are none. No allocation.   @param bend  null: not asked for
+  void load_in_step(double start, double length, kernels::Array& load0, kernels::Array& load1, double* bend);
+  /// Whether any load bends within a step.
+  [[nodiscard]] bool loads_bend() const { return loads_.bends(); }
   /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
   Sums move(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
             State& to);

@@ -285,4 +285,59 @@ TEST(Signal, LeavesASingleBendToTheInterpolationBetweenSteps) {
   EXPECT_EQ(over_step(bend, 0.5, 0.1), 1.0);
 }
 
+namespace {
+
+/// By the midpoint rule.
+InStep by_parts(const Signal& signal, double from, double to) {
+  constexpr int parts = 100'000;
+  InStep out;
+  for (int i = 0; i < parts; ++i) {
+    const double x = (2.0 * i + 1.0) / parts - 1.0,
+                 v = signal(0.5 * (from + to) + 0.5 * x * (to - from)) / parts;
+    out.mean += v;
+    out.slope += 3.0 * x * v;
+    out.bend += 2.5 * (3.0 * x * x - 1.0) * v;
+  }
+  return out;
+}
+void expect_near(const InStep& a, const InStep& b, double most) {
+  EXPECT_NEAR(a.mean, b.mean, most);
+  EXPECT_NEAR(a.slope, b.slope, most);
+  EXPECT_NEAR(a.bend, b.bend, most);
+}
+
+} // namespace
+
+TEST(Signal, IsItsMomentsInAStep) {
+  expect_near(Signal(Constant{3.0}, 1.0).in_step(0.2, 0.3), {3.0, 0.0, 0.0}, 0.0);
+  // ten steps in a period; the rule is exact to degree 5, of the bend to degree 3
+  const Signal sine(Harmonic{2.0, 1.0, 0.4}, 1.0), random(Random{1.0, 0.2, 1.0, 7}, 1.0);
+  for (const double from : {0.0, 0.13, 0.77}) {
+    expect_near(sine.in_step(from, from + 0.1), by_parts(sine, from, from + 0.1), 2.0 * 3e-4);
+    expect_near(random.in_step(from, from + 0.1), by_parts(random, from, from + 0.1), 3e-4);
+  }
+}
+
+TEST(Signal, OfATableIsItsMomentsInAStepWhereverItsRowsAre) {
+  const Signal table(Table{{0.1, 0.2, 0.32, 0.32, 0.35, 0.9}, {1.0, -2.0, 4.0, 0.5, 7.0, 7.0}}, 1.0);
+  constexpr double of_the_rule = 2e-4; // at a jump half a part of it
+  for (const auto& [from, to] : {std::pair(0.0, 0.3),
+                                 {0.0, 0.05},
+                                 {0.05, 0.15},
+                                 {0.12, 0.18},
+                                 {0.3, 0.34},
+                                 {0.2, 0.4},
+                                 {0.1, 0.95},
+                                 {0.32, 0.35}})
+    expect_near(table.in_step(from, to), by_parts(table, from, to), of_the_rule);
+  // up to a jump, and from it on
+  const InStep before = table.in_step(0.28, 0.32), after = table.in_step(0.32, 0.335);
+  EXPECT_NEAR(before.mean + before.slope, 4.0, 1e-12);
+  EXPECT_NEAR(after.mean - after.slope, 0.5, 1e-12);
+  EXPECT_NEAR(before.bend, 0.0, 1e-12);
+  // an impulse that lies inside one step is kept
+  const Signal pulse(Table{{0.5, 0.5001, 0.5002}, {0.0, 1e4, 0.0}}, 1.0);
+  EXPECT_NEAR(pulse.in_step(0.45, 0.55).mean * 0.1, 1.0, 1e-12);
+}
+
 } // namespace time_function_test

@@ -63,6 +63,43 @@ TEST(LoadSum, TakesAnInstantAsItIsAndAStepByItsMean) {
   EXPECT_NEAR(force[0], 0.5, 1e-14); // a quarter of the step is past the jump
 }
 
+TEST(LoadSum, IsALineAndABendInAStep) {
+  constexpr double h = 0.1;
+  const std::vector<TimeFunction> functions = {
+      Constant{2.0}, Harmonic{1.0, 0.8}, Table{{0.0, 0.25, 1.0}, {0.0, 3.0, -1.0}}, Random{1.0, 0.2, 1.0, 5}};
+  std::vector<Load> loads;
+  for (std::size_t s = 0; s < functions.size(); ++s)
+    loads.push_back({functions[s], Eigen::VectorXd::Unit(4, static_cast<Eigen::Index>(s))});
+  LoadSum sum(loads, 4, 1.0, h, {}, LoadSum::Steps::used);
+  EXPECT_TRUE(sum.bends());
+  kernels::Array first(8, -1.0), last(8, -1.0), bend(8, -1.0), again(8);
+  for (const double start : {0.0, 0.2, 0.7}) {
+    sum.in_step(start, h, first.data(), last.data(), bend.data());
+    for (std::size_t s = 0; s < functions.size(); ++s) {
+      const InStep of = Signal(functions[s], 1.0).in_step(start, start + h);
+      EXPECT_NEAR(first[s], of.mean - of.slope, 1e-14) << s;
+      EXPECT_NEAR(last[s], of.mean + of.slope, 1e-14) << s;
+      EXPECT_NEAR(bend[s], of.bend, 1e-14) << s;
+    }
+    for (std::size_t i = 4; i < 8; ++i)
+      EXPECT_EQ(first[i] + last[i] + bend[i], 0.0); // padding
+    sum.in_step(start, h, first.data(), again.data(), nullptr);
+    EXPECT_EQ(again, last);
+  }
+  // a record follows its nearest polygon, without a bend
+  Table record;
+  for (int i = 0; i <= 400; ++i) {
+    record.time.push_back(2.5e-3 * i);
+    record.value.push_back(std::sin(6.0 * record.time.back()));
+  }
+  LoadSum recorded({{record, Eigen::VectorXd::Unit(1, 0)}}, 1, 1.0, h, {}, LoadSum::Steps::used);
+  EXPECT_FALSE(recorded.bends());
+  recorded.in_step(0.2, h, first.data(), last.data(), nullptr);
+  recorded.in_step(0.3, h, again.data(), bend.data(), nullptr);
+  EXPECT_EQ(last[0], again[0]);
+  EXPECT_NEAR(last[0], std::sin(6.0 * 0.3), 0.04);
+}
+
 TEST(LoadSum, KnowsWhenItIsConstantOrNothing) {
   const Load steady{Constant{2.0}, Eigen::Vector2d(1, 1)}, idle{Harmonic{1.0, 5.0}, Eigen::Vector2d::Zero()};
   EXPECT_TRUE(LoadSum({steady}, 2, 1.0, 1e-3).constant());

@@ -46,7 +46,8 @@ Scene uncoupled_part(const Scene& scene, const vibration::DiagonalFlow& blocks,
 LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths)
     : blocks_(blocks_of(scene, step, lengths)), uncoupled_modes_(other_modes(blocks_, scene.system.size())),
       uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
-      modes_(scene.system.size()), lengths_(lengths), middle_of_bend_(step * step / 32.0) {
+      modes_(scene.system.size()), lengths_(lengths), h_(step), middle_of_bend_(step * step / 32.0),
+      bow_of_bend_(step * step / 60.0) {
   none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
   for_bends_.fill({none_, none_});
   uncoupled_.linear_for_bends(for_bends_);
@@ -56,7 +57,7 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
   driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step,
-                  std::vector<signals::SampledLoad>(), vibration::LoadSum::Corners::used);
+                  std::vector<signals::SampledLoad>(), vibration::LoadSum::Steps::used);
   random_.emplace(std::vector<vibration::Load>(), modes_, scene.duration, step, scene.sampled_loads);
   a_ = b_ = none_;
   y_.assign(blocks_.size(), 0.0);
@@ -144,18 +145,29 @@ LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::Vecto
   return out;
 }
 
-void LinearFlow::load_about(double time, double length, kernels::Array& load) {
-  uncoupled_.load_about(time, length, load);
+void LinearFlow::load_in_step(double start, int steps, kernels::Array& load0, kernels::Array& load1,
+                              kernels::Array& bend) {
+  const bool bends = steps == 1 && loads_bend();
+  const double length = steps * h_;
+  uncoupled_.load_in_step(start, length, load0, load1, bends ? bend.data() : nullptr);
+  if (bends)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i) {
+      const double mean = for_bends_[0].mean[i] * bend[i], slope = for_bends_[0].slope[i] * bend[i];
+      load0[i] += mean - slope;
+      load1[i] += mean + slope;
+    }
   if (blocks_.empty())
     return;
   if (!driven_->empty())
-    driven_->corner(time, length, part(load));
+    driven_->in_step(start, length, part(load0), part(load1), nullptr);
   if (random_->empty())
     return;
   if (driven_->empty())
-    std::fill(load.begin() + uncoupled_.padded(), load.end(), 0.0);
-  random_->corner(time, length, q_.data());
-  blocks_.add_input(q_.data(), part(load));
+    for (kernels::Array* load : {&load0, &load1})
+      std::fill(load->begin() + uncoupled_.padded(), load->end(), 0.0);
+  random_->in_step(start, length, q_.data(), v_.data(), nullptr);
+  blocks_.add_input(q_.data(), part(load0));
+  blocks_.add_input(v_.data(), part(load1));
 }
 
 void LinearFlow::move_blocks(int length, const State& from, const kernels::Array& load0,

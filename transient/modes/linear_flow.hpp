@@ -45,8 +45,11 @@ public:
 
   /// @param q, v  n
   [[nodiscard]] State start(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  /// The loads about a time, an end of a step of `length` s, as numbers of a force; stay where there are none. No allocation.
-  void load_about(double time, double length, kernels::Array& load);
+  /// The loads in so many steps of h from a time on as numbers of a force: the straight line that leaves the modes where they do, and in one step, but for those of
+  /// blocks, the bend that modes of w h < 0.1 do not feel (ModalFlow::load_in_step). They stay where there are none. No allocation.   @param bend  padded
+  void load_in_step(double start, int steps, kernels::Array& load0, kernels::Array& load1,
+                    kernels::Array& bend);
+  [[nodiscard]] bool loads_bend() const { return uncoupled_.loads_bend(); }
   /// As ModalFlow; sums without the blocks. No allocation.
   vibration::ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
                                   const kernels::Array& load1, State& to);
@@ -80,11 +83,15 @@ public:
         force.slope[i] += for_bends_[k].slope[i] * bends[k][i];
       }
   }
-  /// Adds to displacements of `middle` what the bends move modes by there: h^2/32 of one of degree 2, of slow modes; of w h = 2 to a fifth. Not of
-  /// blocks. No allocation.
-  void add_bends_in_middle(const std::array<kernels::Array, 2>& bends, kernels::Array& q) const {
+  /// Adds to displacements of `middle` what a bend of degree 2 moves modes by there: h^2/32 of it, of slow modes; of w h = 2 to a fifth. Not of blocks. No allocation.
+  void add_bend_in_middle(const kernels::Array& bend, kernels::Array& q) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i)
-      q[i] += middle_of_bend_ * bends[0][i];
+      q[i] += middle_of_bend_ * bend[i];
+  }
+  /// Adds to `bow` what such a bend adds to it: h^2/60 of it, likewise. No allocation.
+  void add_bow_of_bend(const kernels::Array& bend, kernels::Array& bow) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i)
+      bow[i] += bow_of_bend_ * bend[i];
   }
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
@@ -135,7 +142,7 @@ private:
   std::optional<vibration::LoadSum> random_; ///< sampled loads on all modes
   BlockEnergies start_;                      ///< fluid_work: y^T P y
   vibration::BentForce for_bends_;           ///< by numbers of a force
-  double middle_of_bend_;                    ///< s2
+  double h_, middle_of_bend_, bow_of_bend_;  ///< s; s2
   kernels::Array none_, a_, b_, y_, q_, v_;
 };
 

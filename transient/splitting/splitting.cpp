@@ -66,6 +66,7 @@ public:
         inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_), predicted_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
         forces_(inputs_ ? *inputs_ : contacts_, modes_.has_bow()),
+        has_bow_(modes_.has_bow() || modes_.loads_bend()),
         coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
@@ -80,6 +81,7 @@ public:
     for (Step& s : steps_)
       s.trial.pieces.reserve(count * static_cast<std::size_t>(most_pieces));
     modal_bow_.assign(static_cast<std::size_t>(modes_.coordinates()), 0.0);
+    load_bend_.assign(static_cast<std::size_t>(modes_.force_numbers()), 0.0);
     bow_.assign(static_cast<std::size_t>(contacts_.stride()), 0.0);
     none_.assign(static_cast<std::size_t>(modes_.force_numbers()), 0.0);
     was_near_.assign(count, 1); // nothing is known yet
@@ -94,7 +96,6 @@ public:
     Step& first = steps_[0];
     for (Step& s : steps_)
       s.from = modes_.start(scene.q0, scene.v0);
-    modes_.load_about(0.0, h_, first.load);
     obstacles_.place(0.0, first.from.q.data(), first.from.v.data(), imposed_[1], end_);
     moving_ = modes_.energy_at_start(first.from);
     energy_.start(moving_ + end_.spring_energy());
@@ -123,8 +124,8 @@ public:
       record_.energy = now.blocks.whole(now.energy, modes_, steps_[made_].from);
     if (!parts.modes)
       return;
-    modes_.modes_in_middle(now.steps, now.from, now.load, load_at_end(published_),
-                           now.pushed ? &now.force : nullptr, now.q, output_q_.data());
+    modes_.modes_in_middle(now.steps, now.from, now.load, now.load_end, now.pushed ? &now.force : nullptr,
+                           now.q, output_q_.data());
     record_.q = output_q_.data();
   }
 
@@ -133,8 +134,7 @@ public:
     const bool inside = counts_.steps > 0 && time <= last.start + last.length;
     const std::size_t of = inside ? published_ : made_;
     const Step& s = steps_[of];
-    modes_.inside(time - s.start, s.length, s.from, s.load, load_at_end(of), s.pushed ? &s.force : nullptr, q,
-                  v);
+    modes_.inside(time - s.start, s.length, s.from, s.load, s.load_end, s.pushed ? &s.force : nullptr, q, v);
     scale(q, 1);
     scale(v, 1);
   }
@@ -158,8 +158,6 @@ public:
       }
     }
     done_ = std::llround(from.start / h_);
-    modes_.load_about(first.start, h_, first.load);
-    first.load_of = 1;
     end_.u = other.end_.u;
     end_.w = other.end_.w;
     obstacles_.at(first.start, imposed_[1]);
@@ -203,11 +201,8 @@ private:
     double start = 0.0, length = 0.0; ///< s
     int steps = 0;                    ///< of h
     ModalFlow::State from;
-    kernels::Array load; ///< at its start, of a polygon with corners `load_of` steps apart
-    int load_of = 1;
-    kernels::Array
-        load_end; ///< at its end, where the next step has another length; else that is the next step's `load`
-    bool next_differs = false;
+    kernels::Array load,
+        load_end; ///< at both ends: the straight line that stands for the loads (LinearFlow::load_in_step)
     bool pushed = false; ///< contacts act in it, with the force
     ModalForce force;
     kernels::Array q, u; ///< in its middle
@@ -215,14 +210,10 @@ private:
     Energy energy; ///< at its end; of modes in blocks without damping and fluid
     BlockBalance blocks;
     void visit(core::StateArchive& state) {
-      state(start, length, steps, from, load, load_of, load_end, next_differs, pushed, force, q, u, trial,
-            energy, blocks);
+      state(start, length, steps, from, load, load_end, pushed, force, q, u, trial, energy, blocks);
     }
   };
   [[nodiscard]] static std::size_t next(std::size_t step) { return step == 2 ? 0 : step + 1; }
-  [[nodiscard]] const kernels::Array& load_at_end(std::size_t step) const {
-    return steps_[step].next_differs ? steps_[step].load_end : steps_[next(step)].load;
-  }
 
   CoupledContacts make_coupled(const Scene& scene, const SplittingOptions& options) {
     ContactBlocks blocks(scene);
@@ -266,30 +257,15 @@ private:
         near_.push_back(c);
   }
 
-  /// The load at the start of a step as that of a polygon with corners so many h apart.
-  void load_start(Step& s, int length) {
-    if (s.load_of == length)
-      return;
-    if (Step& before = steps_[next(next(made_))]; !before.next_differs) {
-      before.load_end = s.load;
-      before.next_differs = true;
-    }
-    modes_.load_about(s.start, length * h_, s.load);
-    s.load_of = length;
-  }
-
   /// The modes to the end of a step of so many h, under the forces held.
   ModalFlow::Sums predict(Step& s, int length, Step& to) {
     s.steps = length;
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
-    load_start(s, length);
-    modes_.load_about(to.start, s.length, to.load);
-    to.load_of = length;
-    s.next_differs = false;
+    modes_.load_in_step(s.start, length, s.load, s.load_end, load_bend_);
     const ModalFlow::Sums sums = forces_.any_held()
-                                     ? modes_.push(s.from, s.load, to.load, forces_.held(), to.from)
-                                     : modes_.move(length, s.from, s.load, to.load, to.from);
+                                     ? modes_.push(s.from, s.load, s.load_end, forces_.held(), to.from)
+                                     : modes_.move(length, s.from, s.load, s.load_end, to.from);
     obstacles_.place(to.start, to.from.q.data(), to.from.v.data(), imposed_[1], end_);
     return sums;
   }
@@ -321,7 +297,7 @@ private:
     s.pushed = !near_.empty();
     if (s.pushed) {
       ++counts_.evaluations;
-      find_bow(s, to);
+      find_bow(s);
       coupled_.make({start_, end_, bow_}, near_, s.trial, losses);
       s.pushed = forces_.any_held() || !s.trial.active.empty();
       if (s.pushed)
@@ -336,17 +312,22 @@ private:
       was_near_[c] = end_.near(c);
     for (const int c : near_)
       was_near_[c] = was_near_[c] || sum_of_sizes(coupled_.force(c).held) > 0.0;
-    prepare_output(s, to);
-    modes_.add_works(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, sums, blocks_.works);
+    prepare_output(s);
+    modes_.add_works(s.steps, s.from, s.load, s.load_end, s.pushed ? &s.force : nullptr, sums, blocks_.works);
     balance_energy(s, to.from, sums, losses, brought);
     done_ += s.steps;
   }
 
   /// Of contacts over the step predicted (StepMotion).
-  void find_bow(const Step& s, const Step& to) {
-    if (!modes_.has_bow())
+  void find_bow(const Step& s) {
+    if (!has_bow_)
       return;
-    modes_.bow(s.from, s.load, to.load, forces_.any_held() ? forces_.held() : none_, modal_bow_);
+    if (modes_.has_bow())
+      modes_.bow(s.from, s.load, s.load_end, forces_.any_held() ? forces_.held() : none_, modal_bow_);
+    else
+      std::fill(modal_bow_.begin(), modal_bow_.end(), 0.0);
+    if (modes_.loads_bend())
+      modes_.add_bow_of_bend(load_bend_, modal_bow_);
     kernels::gather(contacts_.gather, modal_bow_.data(), bow_.data());
   }
 
@@ -358,7 +339,8 @@ private:
       forces_.assemble(coupled_, near_, &s.force);
       if (forces_.any_bend())
         modes_.add_bends(forces_.bends(), s.force);
-      const ModalFlow::Sums sums = modes_.push(s.from, s.load, to.load, s.force.mean, s.force.slope, to.from);
+      const ModalFlow::Sums sums =
+          modes_.push(s.from, s.load, s.load_end, s.force.mean, s.force.slope, to.from);
       end_.gather(to.from.q.data(), to.from.v.data());
       imposed_[1].add_to(end_);
       if (!find_pushed_in())
@@ -397,18 +379,20 @@ private:
     return work;
   }
 
-  void prepare_output(Step& s, const Step& to) {
-    modes_.middle(s.steps, s.from, s.load, to.load, s.pushed ? &s.force : nullptr, s.q);
+  void prepare_output(Step& s) {
+    modes_.middle(s.steps, s.from, s.load, s.load_end, s.pushed ? &s.force : nullptr, s.q);
     // contacts: by the cubic through both ends, by the quartic where some are near, and by their own path where they may be closed
     const double eighth = 0.125 * s.length;
     for (std::size_t lane = 0; lane < s.u.size(); ++lane)
       s.u[lane] = 0.5 * (start_.u[lane] + end_.u[lane]) + eighth * (start_.w[lane] - end_.w[lane]);
-    if (!near_.empty() && modes_.has_bow())
+    if (!near_.empty() && has_bow_)
       for (std::size_t lane = 0; lane < s.u.size(); ++lane)
         s.u[lane] += middle_of_bow * bow_[lane];
     coupled_.place_in_middle(s.u.data());
     if (s.pushed && forces_.any_bend())
-      modes_.add_bends_in_middle(forces_.bends(), s.q);
+      modes_.add_bend_in_middle(forces_.bends()[0], s.q);
+    if (s.steps == 1 && modes_.loads_bend())
+      modes_.add_bend_in_middle(load_bend_, s.q);
     for (std::size_t i = 0; i < mode_scales_.size(); ++i)
       s.q[i] *= mode_scales_[i];
   }
@@ -442,6 +426,7 @@ private:
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 2> imposed_; ///< likewise
   StepForces forces_;
+  bool has_bow_; ///< whether modes move otherwise than by cubics in time
   CoupledContacts coupled_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
@@ -453,6 +438,7 @@ private:
   kernels::Array mode_scales_;            ///< with scaled masses
   kernels::Array output_q_;               ///< modes of the record, with blocks
   kernels::Array modal_bow_, bow_, none_; ///< over coordinates; lanes; a force of 0
+  kernels::Array load_bend_;              ///< of the loads in the step that is made, likewise
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again

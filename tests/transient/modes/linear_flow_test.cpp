@@ -214,9 +214,8 @@ TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
     const Eigen::VectorXd q0 = 1e-3 * Eigen::VectorXd::LinSpaced(modes, 1.0, -0.5),
                           v0 = Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7);
     const LinearFlow::State from = flow.start(q0, v0);
-    kernels::Array load0(static_cast<std::size_t>(flow.force_numbers()), 0.0), load1(load0);
-    flow.load_about(0.0, step, load0);
-    flow.load_about(step, step, load1);
+    kernels::Array load0(static_cast<std::size_t>(flow.force_numbers()), 0.0), load1(load0), bend(load0);
+    flow.load_in_step(0.0, 1, load0, load1, bend);
     const vibration::ModalForce force{load1, kernels::Array(load1.size(), 0.0)}; // as good as any
     kernels::Array bow(static_cast<std::size_t>(flow.coordinates()), 0.0);
     flow.bow(from, load0, load1, force.mean, bow);
@@ -258,7 +257,8 @@ TEST(LinearFlow, TakesForcesThatBendWithinTheStep) {
                                               Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7));
     kernels::Array pattern(static_cast<std::size_t>(flow.force_numbers()), 0.0);
     const kernels::Array none(pattern);
-    flow.load_about(0.0, step, pattern);
+    kernels::Array same(pattern), bend(pattern);
+    flow.load_in_step(0.0, 1, pattern, same, bend);
     const auto times = [&](double factor) {
       kernels::Array out(pattern);
       for (double& x : out)
