@@ -397,8 +397,8 @@ InStep Signal::in_step(const Table& table, double from, double to) const {
   };
   for (; i < t.size() && t[i] < to; ++i) // at a jump an interval of no length
     up_to(per_half * (t[i] - middle), table.value[i]);
-  const bool before_jump = i < t.size() && t[i] == to;
-  up_to(1.0, before_jump ? table.value[i] : (*this)(to));
+  const bool row_at_end = i < t.size() && t[i] == to;
+  up_to(1.0, row_at_end ? table.value[i] : (*this)(to));
   return out;
 }
 

@@ -24,7 +24,7 @@ struct SceneRates {
   double highest_mode = 0.0; ///< rad/s
   double excitation = 0.0;   ///< Hz, the highest of the loads that act on the scene
   double sampled_excitation =
-      0.0; ///< Hz, likewise of those that have no moments in a step (vibration/load_sum.hpp): sampled forces; and of integrals
+      0.0; ///< Hz, likewise of sampled forces, which are lines in every scheme (vibration/load_sum.hpp), and of integrals
   double table_interval =
       0.0; ///< s, the shortest between points of their tables, but those too close to rule a step; not of records
   double record_rate = 0.0;     ///< rad/s, how fast the fastest of their records changes (signals/record.hpp)

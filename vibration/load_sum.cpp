@@ -22,7 +22,7 @@ std::vector<double> polygon_of(const signals::TimeFunction& function, double dur
 } // namespace
 
 LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-                 const std::vector<signals::SampledLoad>& sampled, Steps steps)
+                 const std::vector<signals::SampledLoad>& sampled, Records records)
     : modes_(modes), padded_modes_(kernels::padded(static_cast<int>(modes))), step_(step),
       observed_(static_cast<std::size_t>(padded_modes_)) {
   std::vector<const signals::TimeFunction*> functions;
@@ -35,8 +35,8 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     if (same == functions.end()) {
       functions.push_back(&load.function);
       signals_.emplace_back(load.function, duration);
-      polygons_.push_back(steps == Steps::used ? polygon_of(load.function, duration, step)
-                                               : std::vector<double>());
+      polygons_.push_back(records == Records::by_polygon ? polygon_of(load.function, duration, step)
+                                                         : std::vector<double>());
       shapes_.resize(shapes_.size() + static_cast<std::size_t>(padded_modes_), 0.0);
       constant_ = constant_ && signals_.back().is_constant();
       bends_ = bends_ || !(signals_.back().is_constant() || !polygons_.back().empty());
@@ -54,8 +54,7 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     sampled_at_end_.resize(static_cast<std::size_t>(padded_modes_));
 }
 
-template <class Value, class Place>
-void LoadSum::combine(double time, const Place& place_on, const Value& value, double* force) {
+template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
   const signals::SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
   signals::SampleGrid::Place place{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
@@ -65,7 +64,7 @@ void LoadSum::combine(double time, const Place& place_on, const Value& value, do
       continue;
     }
     if (!grid || *grid != signal.grid())
-      place = place_on(signal.grid());
+      place = signal.grid().place(time);
     grid = &signal.grid();
     values_[k] = signal.at(place);
   }
@@ -81,14 +80,12 @@ void LoadSum::at(double time, double* force) { at(time, signals::Signal::window(
 
 void LoadSum::at(double time, signals::Signal::Window window, double* force) {
   combine(
-      time, [&](const signals::SampleGrid& grid) { return grid.place(time); },
-      [&](std::size_t k) { return signals_[k].over_step(time, step_, window); }, force);
+      time, [&](std::size_t k) { return signals_[k].over_step(time, step_, window); }, force);
 }
 
 void LoadSum::instant(double time, double* force) {
   combine(
-      time, [&](const signals::SampleGrid& grid) { return grid.place(time); },
-      [&](std::size_t k) { return signals_[k](time); }, force);
+      time, [&](std::size_t k) { return signals_[k](time); }, force);
 }
 
 void LoadSum::observe(double time, double* force) {
@@ -96,20 +93,20 @@ void LoadSum::observe(double time, double* force) {
   std::copy_n(observed_.begin(), modes_, force);
 }
 
-signals::InStep LoadSum::in_step(std::size_t signal, double start, double length) const {
+signals::InStep LoadSum::in_step(std::size_t signal, double start, double end) const {
   const std::vector<double>& polygon = polygons_[signal];
   if (polygon.empty())
-    return signals_[signal].in_step(start, start + length);
+    return signals_[signal].in_step(start, end);
   const auto corner = [&](double time) {
     return polygon[std::min(static_cast<std::size_t>(std::llround(time / step_)), polygon.size() - 1)];
   };
-  const double first = corner(start), last = corner(start + length);
+  const double first = corner(start), last = corner(end);
   return {0.5 * (first + last), 0.5 * (last - first), 0.0};
 }
 
-void LoadSum::in_step(double start, double length, double* load0, double* load1, double* bend) {
+void LoadSum::in_step(double start, double end, double* load0, double* load1, double* bend) {
   for (std::size_t k = 0; k < signals_.size(); ++k) {
-    const signals::InStep of = in_step(k, start, length);
+    const signals::InStep of = in_step(k, start, end);
     first_[k] = of.mean - of.slope;
     last_[k] = of.mean + of.slope;
     bend_[k] = of.bend;
@@ -128,7 +125,7 @@ void LoadSum::in_step(double start, double length, double* load0, double* load1,
   if (sampled_.empty())
     return;
   add_sampled(start, load0);
-  add_sampled(start + length, load1);
+  add_sampled(end, load1);
 }
 
 void LoadSum::add_sampled(double time, double* force) {

@@ -10,14 +10,14 @@ namespace fretwork::vibration {
 
 class LoadSum {
 public:
-  /// Whether in_step() is asked for: records then have their polygons, 8 bytes a step.
-  enum class Steps { unused, used };
+  /// What records are in in_step(): their values, or their polygons, 8 bytes a step.
+  enum class Records { by_value, by_polygon };
   /// @param step  s: the force at a time stands for a step about it, so that what a table does inside a step keeps its impulse
   /// @param sampled  are added at the time itself, whatever the step: samples are far closer than the periods that carry their power
   LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double duration, double step,
-          const std::vector<signals::SampledLoad>& sampled = {}, Steps steps = Steps::unused);
-  LoadSum(const ForcedSystem& forced, double step, Steps steps = Steps::unused)
-      : LoadSum(forced.loads, forced.system.size(), forced.duration, step, forced.sampled_loads, steps) {}
+          const std::vector<signals::SampledLoad>& sampled = {}, Records records = Records::by_value);
+  LoadSum(const ForcedSystem& forced, double step, Records records = Records::by_value)
+      : LoadSum(forced.loads, forced.system.size(), forced.duration, step, forced.sampled_loads, records) {}
   [[nodiscard]] bool empty() const { return signals_.empty() && sampled_.empty(); }
   /// True where the force never changes.
   [[nodiscard]] bool constant() const { return constant_; }
@@ -28,8 +28,8 @@ public:
   /// Modal forces in a step: the straight line from load0 to load1 that has their mean and first moment, and the bend b of b (3 x^2 - 1)/2 on it, x from -1 to 1
   /// (signals::InStep). Of records whose points are closer than a step (signals/record.hpp) the nearest polygon with corners a step apart, of sampled loads the line
   /// between their values at both ends: neither bends. Padded. No allocation.
-  /// @param start  s   @param length  s, of one step or, beside loads without tables, of several   @param bend  null: not asked for
-  void in_step(double start, double length, double* load0, double* load1, double* bend);
+  /// @param start, end  s, one step apart or, beside loads without tables, several   @param bend  null: not asked for
+  void in_step(double start, double end, double* load0, double* load1, double* bend);
   /// Modal force at a time that stands for another window, padded. No allocation.
   void at(double time, signals::Signal::Window window, double* force);
   /// Modal force at an instant, padded. No allocation.
@@ -38,10 +38,9 @@ public:
   void observe(double time, double* force);
 
 private:
-  /// The force at a time by the values of the signals: those that are not random as value(k) has them, the others at place(grid).
-  template <class Value, class Place>
-  void combine(double time, const Place& place, const Value& value, double* force);
-  [[nodiscard]] signals::InStep in_step(std::size_t signal, double start, double length) const;
+  /// The force at a time by the values of the signals, those that are not random as value(k) has them.
+  template <class Value> void combine(double time, const Value& value, double* force);
+  [[nodiscard]] signals::InStep in_step(std::size_t signal, double start, double end) const;
   /// Adds the sampled loads at a time.
   void add_sampled(double time, double* force);
 

@@ -32,7 +32,7 @@ std::array<double, 4> bow_by(const kernels::StepCoefficients& s, double h) {
 } // namespace
 
 ModalFlow::ModalFlow(const ForcedSystem& forced, double step, const std::vector<int>& lengths)
-    : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step, LoadSum::Steps::used),
+    : system_(with_diagonal(forced.system)), h_(step), loads_(forced, step, LoadSum::Records::by_polygon),
       lone_k_(system_.stiffness), lone_c_(system_.damping), lengths_(lengths),
       bow_(kernels::padded(static_cast<int>(system_.size()))) {
   std::vector<CoupledBlock> blocks = coupled_blocks(system_);
@@ -151,10 +151,18 @@ void ModalFlow::linear_for_bends(BentForce& by) const {
   }
 }
 
-void ModalFlow::load_in_step(double start, double length, kernels::Array& load0, kernels::Array& load1,
+kernels::Array ModalFlow::squares_of_followed() const {
+  kernels::Array out(k_.size(), 0.0);
+  for (Eigen::Index j = 0; j < system_.size(); ++j)
+    if (std::sqrt(lone_k_(j)) * h_ < highest_followed)
+      out[static_cast<std::size_t>(j)] = h_ * h_;
+  return out;
+}
+
+void ModalFlow::load_in_step(double start, double end, kernels::Array& load0, kernels::Array& load1,
                              double* bend) {
   if (!loads_.empty())
-    loads_.in_step(start, length, load0.data(), load1.data(), bend);
+    loads_.in_step(start, end, load0.data(), load1.data(), bend);
 }
 
 void ModalFlow::copy_modes(const State& from, State& to) const {

@@ -46,8 +46,8 @@ public:
   };
   /// Sets z for the start of a run.
   void start(State& state) const { state.z.assign(states_.size(), 0.0); }
-  /// Modal forces of the loads in a step of `length` s (LoadSum::in_step); they stay where there are none. No allocation.   @param bend  null: not asked for
-  void load_in_step(double start, double length, kernels::Array& load0, kernels::Array& load1, double* bend);
+  /// Modal forces of the loads in a step (LoadSum::in_step); they stay where there are none. No allocation.   @param bend  null: not asked for
+  void load_in_step(double start, double end, kernels::Array& load0, kernels::Array& load1, double* bend);
   /// Whether any load bends within a step.
   [[nodiscard]] bool loads_bend() const { return loads_.bends(); }
   /// The modes over `length` steps under the loads load0 to load1, alone. No allocation.
@@ -68,6 +68,8 @@ public:
   /// Of each mode over one step the linear forces that leave it where bent ones do (linear_for_bends): 0 of modes below w h = 0.1 and of those
   /// above highest_followed; of modes that a damping matrix couples as if they were alone.   @param by  padded
   void linear_for_bends(BentForce& by) const;
+  /// h^2 of modes up to highest_followed, of others 0, s2, padded: what a bend within the step displaces modes by goes with it.
+  [[nodiscard]] kernels::Array squares_of_followed() const;
   [[nodiscard]] double energy(const State& state) const;
   /// Numbers of modes, padded.
   [[nodiscard]] int padded() const { return static_cast<int>(k_.size()); }

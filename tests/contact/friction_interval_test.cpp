@@ -352,7 +352,7 @@ TEST(FrictionInterval, SticksAndSlipsOnAStructureThatHoldsItBack) {
   EXPECT_NEAR(dot(g.impulse, along), f.impulse, 1e-12);
   EXPECT_NEAR(dot(g.spring, along), f.spring, 1e-12);
 
-  // a force that grows takes a contact that slips further by Y G; the lift leaves its motion at the end as it is, but the less of the force has been there on the way
+  // a force that grows takes a contact that slips further by Y G; the lift leaves its motion at the end as it is, but not the work of a force that grows
   const FrictionLaw slipping{stiffness, 0.0, 0.5, 0.5};
   const auto slip = [&](double y, double lifted) {
     return friction_over_interval(slipping, piece_tables(slipping, mobility, dt), mobility, -0.5, true, dt,

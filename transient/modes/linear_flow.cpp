@@ -46,8 +46,7 @@ Scene uncoupled_part(const Scene& scene, const vibration::DiagonalFlow& blocks,
 LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& lengths)
     : blocks_(blocks_of(scene, step, lengths)), uncoupled_modes_(other_modes(blocks_, scene.system.size())),
       uncoupled_(uncoupled_part(scene, blocks_, uncoupled_modes_), step, lengths),
-      modes_(scene.system.size()), lengths_(lengths), h_(step), middle_of_bend_(step * step / 32.0),
-      bow_of_bend_(step * step / 60.0) {
+      modes_(scene.system.size()), lengths_(lengths), squares_(uncoupled_.squares_of_followed()) {
   none_.assign(static_cast<std::size_t>(force_numbers()), 0.0);
   for_bends_.fill({none_, none_});
   uncoupled_.linear_for_bends(for_bends_);
@@ -57,7 +56,7 @@ LinearFlow::LinearFlow(const Scene& scene, double step, const std::vector<int>& 
   loads_.emplace(scene, step);
   const auto numbers = static_cast<Index>(kernels::numbers_of_input * blocks_.size());
   driven_.emplace(loads_on_blocks(scene.loads), numbers, scene.duration, step,
-                  std::vector<signals::SampledLoad>(), vibration::LoadSum::Steps::used);
+                  std::vector<signals::SampledLoad>(), vibration::LoadSum::Records::by_polygon);
   random_.emplace(std::vector<vibration::Load>(), modes_, scene.duration, step, scene.sampled_loads);
   a_ = b_ = none_;
   y_.assign(blocks_.size(), 0.0);
@@ -145,27 +144,30 @@ LinearFlow::State LinearFlow::start(const Eigen::VectorXd& q, const Eigen::Vecto
   return out;
 }
 
-void LinearFlow::load_in_step(double start, int steps, kernels::Array& load0, kernels::Array& load1,
-                              kernels::Array& bend) {
-  const bool bends = steps == 1 && loads_bend();
-  const double length = steps * h_;
-  uncoupled_.load_in_step(start, length, load0, load1, bends ? bend.data() : nullptr);
+void LinearFlow::load_in_step(double start, double end, bool one_step, kernels::Array& load0,
+                              kernels::Array& load1, kernels::Array& bend) {
+  const bool bends = one_step && loads_bend();
+  uncoupled_.load_in_step(start, end, load0, load1, bends ? bend.data() : nullptr);
+  if (has_blocks())
+    load_blocks(start, end, load0, load1, bends ? &bend : nullptr);
   if (bends)
-    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i) {
+    for (std::size_t i = 0; i < bend.size(); ++i) {
       const double mean = for_bends_[0].mean[i] * bend[i], slope = for_bends_[0].slope[i] * bend[i];
       load0[i] += mean - slope;
       load1[i] += mean + slope;
     }
-  if (blocks_.empty())
-    return;
+}
+
+void LinearFlow::load_blocks(double start, double end, kernels::Array& load0, kernels::Array& load1,
+                             kernels::Array* bend) {
   if (!driven_->empty())
-    driven_->in_step(start, length, part(load0), part(load1), nullptr);
+    driven_->in_step(start, end, part(load0), part(load1), bend ? part(*bend) : nullptr);
   if (random_->empty())
     return;
   if (driven_->empty())
     for (kernels::Array* load : {&load0, &load1})
       std::fill(load->begin() + uncoupled_.padded(), load->end(), 0.0);
-  random_->in_step(start, length, q_.data(), v_.data(), nullptr);
+  random_->in_step(start, end, q_.data(), v_.data(), nullptr);
   blocks_.add_input(q_.data(), part(load0));
   blocks_.add_input(v_.data(), part(load1));
 }

@@ -45,11 +45,12 @@ public:
 
   /// @param q, v  n
   [[nodiscard]] State start(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  /// The loads in so many steps of h from a time on as numbers of a force: the straight line that leaves the modes where they do, and in one step, but for those of
-  /// blocks, the bend that modes of w h < 0.1 do not feel (ModalFlow::load_in_step). They stay where there are none. No allocation.   @param bend  padded
-  void load_in_step(double start, int steps, kernels::Array& load0, kernels::Array& load1,
+  /// The loads between two times as numbers of a force: the line from load0 to load1 with their mean and first moment and, of one step, with the linear force that
+  /// stands for their bend (add_bends). They stay where there are none. No allocation.
+  /// @param start, end  s   @param bend  of one step: their coefficient of degree 2, N; else untouched
+  void load_in_step(double start, double end, bool one_step, kernels::Array& load0, kernels::Array& load1,
                     kernels::Array& bend);
-  [[nodiscard]] bool loads_bend() const { return uncoupled_.loads_bend(); }
+  [[nodiscard]] bool loads_bend() const { return uncoupled_.loads_bend() || (driven_ && driven_->bends()); }
   /// As ModalFlow; sums without the blocks. No allocation.
   vibration::ModalFlow::Sums move(int length, const State& from, const kernels::Array& load0,
                                   const kernels::Array& load1, State& to);
@@ -83,15 +84,16 @@ public:
         force.slope[i] += for_bends_[k].slope[i] * bends[k][i];
       }
   }
-  /// Adds to displacements of `middle` what a bend of degree 2 moves modes by there: h^2/32 of it, of slow modes; of w h = 2 to a fifth. Not of blocks. No allocation.
+  /// Adds to displacements of `middle` what a bend of degree 2 moves modes by there: h^2/32 of it, of slow modes; of w h = 2 to a fifth. Not of blocks, nor of modes
+  /// that no step follows. No allocation.
   void add_bend_in_middle(const kernels::Array& bend, kernels::Array& q) const {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i)
-      q[i] += middle_of_bend_ * bend[i];
+    for (std::size_t i = 0; i < squares_.size(); ++i)
+      q[i] += squares_[i] / 32.0 * bend[i];
   }
   /// Adds to `bow` what such a bend adds to it: h^2/60 of it, likewise. No allocation.
   void add_bow_of_bend(const kernels::Array& bend, kernels::Array& bow) const {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(uncoupled_.padded()); ++i)
-      bow[i] += bow_of_bend_ * bend[i];
+    for (std::size_t i = 0; i < squares_.size(); ++i)
+      bow[i] += squares_[i] / 60.0 * bend[i];
   }
   /// Coordinates in the middle of the step moved last (force null: none), but for those of blocks. No allocation.
   void middle(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
@@ -123,6 +125,8 @@ private:
                                                const kernels::Array& slope) const {
     return {part(load0), part(load1), part(mean), part(slope)};
   }
+  void load_blocks(double start, double end, kernels::Array& load0, kernels::Array& load1,
+                   kernels::Array* bend);
   void move_blocks(int length, const State& from, const kernels::Array& load0, const kernels::Array& load1,
                    const kernels::Array& mean, const kernels::Array& slope, State& to) const;
   [[nodiscard]] std::vector<vibration::Load> loads_on_blocks(const std::vector<vibration::Load>& loads) const;
@@ -142,7 +146,7 @@ private:
   std::optional<vibration::LoadSum> random_; ///< sampled loads on all modes
   BlockEnergies start_;                      ///< fluid_work: y^T P y
   vibration::BentForce for_bends_;           ///< by numbers of a force
-  double h_, middle_of_bend_, bow_of_bend_;  ///< s; s2
+  kernels::Array squares_; ///< s2, of modes that are not coupled (ModalFlow::squares_of_followed)
   kernels::Array none_, a_, b_, y_, q_, v_;
 };
 

@@ -55,7 +55,7 @@ struct SchemeLimits {
   /// energy_conserving has the same resonance; Euler's limit of stability is 2, that of devogelaere 2.8.
   StepBound highest_mode = {};
   /// In a period of harmonic and random loads on contacts, at an accuracy of 0.01. splitting has their moments to the second in each step
-  /// (vibration/load_sum.hpp), which lose nothing. Others: (2 pi/30)^2/12 = 0.4 %.
+  /// (vibration/load_sum.hpp), which lose nothing but the path of contacts on modes that forces of motion couple. Others: (2 pi/30)^2/12 = 0.4 %.
   double points_per_period = points_of_lines;
   /// What a normal damper beyond its bound makes wrong, for messages.
   const char* by_normal_damper = "";
@@ -106,7 +106,7 @@ constexpr double scaled_above = 2.25;
 /// r_n h up to which modes are made heavier: the force of an impact that a damper stops within the step begins with a jump, which moves all modes.
 constexpr double scaled_up_to_damper = 3.0;
 /// A step over the shortest interval of a table that is no record, and w_c h (w_t h) up to which it may be the whole interval: where values change by their size from
-/// point to point inside steps, a contact of w_c h = 3 has its largest force 4 % wrong in steps of a whole interval, 0.5 % within these.
+/// point to point inside steps, a contact of w_c h = 3 has its largest force 4 % wrong in steps of a whole interval, 0.6 % within these.
 constexpr double table_share = 0.5, contact_beside_tables = 1.75;
 /// w_r h of records: the polygon nearest to one loses (w h)^4/720 of what moves with w, 0.14 % at an accuracy of 0.01 (0.01 % without contacts), and the
 /// fewest steps in its period: 0.8 %.

@@ -17,7 +17,7 @@ constexpr double golden = 0.6180339887498949;
 /// Of the accuracy: an error that takes finer intervals (of order 2 it is half of the accuracy), by how many standard errors it is to exceed that, and by how many to stand out.
 /// Six figures of each contact are looked at after each replay, and one contact divides the step of all that it moves: where only the error itself has to be above
 /// the share, chance refines ten contacts of half of the accuracy in most runs. Three standard errors take 10 replays at least.
-constexpr double tolerated = 0.75, surely = 2.0, significance = 3.0;
+constexpr double tolerated = 0.75, exceeds_by = 2.0, significance = 3.0;
 
 /// Sums over replays, each with its weight.
 struct Evidence {
@@ -150,9 +150,9 @@ private:
 
   [[nodiscard]] bool is_coarse(const Evidence& e) const {
     for (std::size_t k = 0; k < replayed_figures; ++k)
-      if (const double error = std::abs(e.error(k));
-          statistic_share(k) * (error - surely * e.spread(k)) > tolerated * options_.accuracy * e.sums[k] &&
-          error > significance * e.spread(k))
+      if (const double error = std::abs(e.error(k)); statistic_share(k) * (error - exceeds_by * e.spread(k)) >
+                                                         tolerated * options_.accuracy * e.sums[k] &&
+                                                     error > significance * e.spread(k))
         return true;
     return false;
   }

@@ -13,7 +13,7 @@
 /// u0 + w0 L/3, u1 - w1 L/3, u1, but for what it exceeds the cubic by (4 % of the amplitude of a mode of w h = 2), and gaps are concave functions
 /// of it; of round bodies side by side, whose gap is convex, where they exceed the speeds times L. That is the path under the forces held: a contact that others push in and out again within a step is not seen.
 ///
-/// Energy: works of loads on the modes are exact, those of contact forces but for their bends (LinearFlow::add_bends), modal damping is what the flow does not keep of them. The residual of the
+/// Energy: works of loads and contact forces on the modes are those of the linear forces that stand for their bends (LinearFlow::add_bends), else exact; modal damping is what the flow does not keep of them. The residual of the
 /// energy balance is what the contacts' laws, along their own path, made otherwise than the modes. Where forces of motion couple modes their energy, the
 /// fluid's work (diagonal_flow.hpp) and with them modal damping are found for the records that are asked for them, exactly; the residual is right in all.
 ///
@@ -65,8 +65,8 @@ public:
         contacts_(modes_.outputs(scene.contacts), modes_.coordinates(), modes_.has_blocks()),
         inputs_(inputs_of(scene)), start_(contacts_), end_(contacts_), predicted_(contacts_),
         obstacles_(scene, contacts_), imposed_{obstacles_.workspace(), obstacles_.workspace()},
-        forces_(inputs_ ? *inputs_ : contacts_, modes_.has_bow()),
-        has_bow_(modes_.has_bow() || modes_.loads_bend()),
+        imposed_in_middle_(obstacles_.workspace()), forces_(inputs_ ? *inputs_ : contacts_, modes_.has_bow()),
+        has_bow_(modes_.has_bow() || modes_.loads_bend() || !imposed_in_middle_.u.empty()),
         coupled_(make_coupled(scene, options)), steps_{Step(*this), Step(*this), Step(*this)} {
     const auto n = static_cast<std::size_t>(kernels::padded(static_cast<int>(scene.system.size())));
     if (mode_scales.size() > 0) {
@@ -262,7 +262,7 @@ private:
     s.steps = length;
     s.length = length * h_;
     to.start = static_cast<double>(done_ + length) * h_;
-    modes_.load_in_step(s.start, length, s.load, s.load_end, load_bend_);
+    modes_.load_in_step(s.start, to.start, length == 1, s.load, s.load_end, load_bend_);
     const ModalFlow::Sums sums = forces_.any_held()
                                      ? modes_.push(s.from, s.load, s.load_end, forces_.held(), to.from)
                                      : modes_.move(length, s.from, s.load, s.load_end, to.from);
@@ -318,8 +318,9 @@ private:
     done_ += s.steps;
   }
 
-  /// Of contacts over the step predicted (StepMotion).
+  /// Of contacts over the step predicted, one of h (StepMotion).
   void find_bow(const Step& s) {
+    assert(s.steps == 1);
     if (!has_bow_)
       return;
     if (modes_.has_bow())
@@ -329,6 +330,19 @@ private:
     if (modes_.loads_bend())
       modes_.add_bow_of_bend(load_bend_, modal_bow_);
     kernels::gather(contacts_.gather, modal_bow_.data(), bow_.data());
+    if (!imposed_[1].u.empty())
+      add_bow_of_obstacles(s);
+  }
+
+  /// As if they moved by quartics: loads that stand for the motion of a base move the modes as it moves the obstacles.
+  void add_bow_of_obstacles(const Step& s) {
+    constexpr double mean_by_middle = 8.0 / 15.0; // of t^2 (h - t)^2
+    obstacles_.at(s.start + 0.5 * h_, imposed_in_middle_);
+    for (std::size_t lane = 0; lane < bow_.size(); ++lane) {
+      const double cubic = 0.5 * (imposed_[0].u[lane] + imposed_[1].u[lane]) +
+                           0.125 * h_ * (imposed_[0].w[lane] - imposed_[1].w[lane]);
+      bow_[lane] += mean_by_middle * (imposed_in_middle_.u[lane] - cubic);
+    }
   }
 
   /// The modes take the forces of the contacts, found again with those that these push into their obstacles.
@@ -425,8 +439,9 @@ private:
   ContactMotion predicted_;              ///< its end under the forces held
   ObstacleMotion obstacles_;
   std::array<ImposedMotion, 2> imposed_; ///< likewise
+  ImposedMotion imposed_in_middle_;
   StepForces forces_;
-  bool has_bow_; ///< whether modes move otherwise than by cubics in time
+  bool has_bow_; ///< whether modes or obstacles move otherwise than by cubics in time
   CoupledContacts coupled_;
   std::array<Step, 3> steps_; ///< the one published, the one made, and where that ends
   std::size_t published_ = 0, made_ = 0;
@@ -438,7 +453,8 @@ private:
   kernels::Array mode_scales_;            ///< with scaled masses
   kernels::Array output_q_;               ///< modes of the record, with blocks
   kernels::Array modal_bow_, bow_, none_; ///< over coordinates; lanes; a force of 0
-  kernels::Array load_bend_;              ///< of the loads in the step that is made, likewise
+  kernels::Array
+      load_bend_; ///< N, of the loads in the step that is made, where it is one of h (LinearFlow::load_in_step)
 
   std::int64_t done_ = 0; ///< steps of h up to the one that is made
   int wait_ = 0;          ///< steps until macro-steps are tried again

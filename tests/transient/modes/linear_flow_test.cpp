@@ -215,7 +215,7 @@ TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
                           v0 = Eigen::VectorXd::LinSpaced(modes, -0.2, 0.7);
     const LinearFlow::State from = flow.start(q0, v0);
     kernels::Array load0(static_cast<std::size_t>(flow.force_numbers()), 0.0), load1(load0), bend(load0);
-    flow.load_in_step(0.0, 1, load0, load1, bend);
+    flow.load_in_step(0.0, step, true, load0, load1, bend);
     const vibration::ModalForce force{load1, kernels::Array(load1.size(), 0.0)}; // as good as any
     kernels::Array bow(static_cast<std::size_t>(flow.coordinates()), 0.0);
     flow.bow(from, load0, load1, force.mean, bow);
@@ -243,6 +243,62 @@ TEST(LinearFlow, KnowsTheMeanOfTheMotion) {
   }
 }
 
+// Loads that are no lines within a step leave the modes where they do in short steps, those alone and those that forces of motion couple: a table with a corner and a jump inside,
+// of which the third and higher moments are left out, and a harmonic of ten steps a period.
+TEST(LinearFlow, MovesModesUnderLoadsThatBendWithinTheStep) {
+  constexpr int parts = 400;
+  for (const bool coupled : {false, true}) {
+    Scene scene = rattling_tube(1.0);
+    scene.system.motion = coupled ? law() : core::MotionForces{};
+    scene.sampled_loads.clear();
+    const double step = 2.0 / std::sqrt(scene.system.stiffness.maxCoeff());
+    const Eigen::VectorXd shape = 30.0 * Eigen::VectorXd::LinSpaced(modes, 1.0, -2.0);
+    const Table parabola = [&] { // that has no other moments
+      Table out;
+      for (int i = 0; i <= 50; ++i) { // no record
+        const double x = i / 25.0 - 1.0;
+        out.time.push_back(0.5 * (1.0 + x) * step);
+        out.value.push_back(0.3 - 0.5 * x + 2.0 * x * x);
+      }
+      return out;
+    }();
+    const Table corner{{0.0, 0.3 * step, 0.6 * step, 0.6 * step, step}, {0.2, 1.0, -0.4, 0.5, 0.1}};
+    struct Case {
+      TimeFunction load;
+      double most; ///< of what the load does
+    };
+    for (const auto& [load, most] :
+         {Case{corner, 2e-2}, {Harmonic{1.0, 0.1 / step, 0.9}, 3e-4}, {parabola, 3e-4}}) {
+      scene.loads = {{load, shape}};
+      const auto moved = [&](int count, bool loaded) {
+        Scene of = scene;
+        if (!loaded)
+          of.loads.clear();
+        LinearFlow flow(of, step / count, {1});
+        LinearFlow::State now = flow.start(1e-3 * shape, -0.2 * shape), next = now;
+        kernels::Array load0(static_cast<std::size_t>(flow.force_numbers()), 0.0), load1(load0), bend(load0);
+        for (int k = 0; k < count; ++k) {
+          flow.load_in_step(k * step / count, (k + 1) * step / count, true, load0, load1, bend);
+          (void)flow.move(1, now, load0, load1, next);
+          std::swap(now, next);
+        }
+        return now;
+      };
+      const LinearFlow::State found = moved(1, true), exact = moved(parts, true), free = moved(1, false);
+      double by_load = 0.0, rate_by_load = 0.0;
+      for (std::size_t i = 0; i < found.q.size(); ++i) {
+        by_load = std::max(by_load, std::abs(exact.q[i] - free.q[i]));
+        rate_by_load = std::max(rate_by_load, std::abs(exact.v[i] - free.v[i]));
+      }
+      SCOPED_TRACE(testing::Message() << coupled << " " << most);
+      for (std::size_t i = 0; i < found.q.size(); ++i) {
+        EXPECT_NEAR(found.q[i], exact.q[i], most * by_load) << i;
+        EXPECT_NEAR(found.v[i], exact.v[i], most * rate_by_load) << i;
+      }
+    }
+  }
+}
+
 // A force that bends within a step leaves the modes where the linear one does that stands for it, with the same work: modes alone, and those that forces of motion
 // couple. Against short steps.
 TEST(LinearFlow, TakesForcesThatBendWithinTheStep) {
@@ -258,7 +314,7 @@ TEST(LinearFlow, TakesForcesThatBendWithinTheStep) {
     kernels::Array pattern(static_cast<std::size_t>(flow.force_numbers()), 0.0);
     const kernels::Array none(pattern);
     kernels::Array same(pattern), bend(pattern);
-    flow.load_in_step(0.0, 1, pattern, same, bend);
+    flow.load_in_step(0.0, step, true, pattern, same, bend);
     const auto times = [&](double factor) {
       kernels::Array out(pattern);
       for (double& x : out)
