@@ -342,24 +342,9 @@ double Signal::over_step(double time, double h, Window window) const {
     for (auto after = std::max(std::lower_bound(begin, end, window.from), begin + 1);
          after < end && *(after - 1) <= window.to; ++after)
       if (*after - *(after - 1) < shorter)
-        return mean(*table, window.from, window.to);
+        return in_step(*table, window.from, window.to).mean;
   }
   return (*this)(time);
-}
-
-double Signal::mean(const Table& table, double from, double to) const {
-  // trapezia between `from`, the table's points inside, and `to`; at a jump the value before it ends one and the value after starts the next
-  const auto& t = table.time;
-  auto i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), from) - t.begin());
-  double sum = 0.0, last_time = from, last_value = (*this)(from);
-  for (; i < t.size() && t[i] < to; ++i) {
-    sum += 0.5 * (last_value + table.value[i]) * (t[i] - last_time);
-    last_time = t[i];
-    last_value = table.value[i];
-  }
-  const bool ends_at_jump = i + 1 < t.size() && t[i] == to && t[i + 1] == to;
-  sum += 0.5 * (last_value + (ends_at_jump ? table.value[i] : (*this)(to))) * (to - last_time);
-  return sum / (to - from);
 }
 
 InStep Signal::in_step(double from, double to) const {

@@ -140,7 +140,6 @@ public:
   [[nodiscard]] bool is_constant() const { return std::holds_alternative<Constant>(function_); }
 
 private:
-  [[nodiscard]] double mean(const Table& table, double from, double to) const;
   [[nodiscard]] InStep in_step(const Table& table, double from, double to) const;
 
   TimeFunction function_;

@@ -68,10 +68,7 @@ template <class Value> void LoadSum::combine(double time, const Value& value, do
     grid = &signal.grid();
     values_[k] = signal.at(place);
   }
-  if (signals_.empty())
-    std::fill_n(force, padded_modes_, 0.0);
-  else
-    kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values_.data(), force);
+  sum(values_, force);
   for (signals::SampledForce& sampled : sampled_)
     sampled.add(time, force);
 }
@@ -111,13 +108,6 @@ void LoadSum::in_step(double start, double end, double* load0, double* load1, do
     last_[k] = of.mean + of.slope;
     bend_[k] = of.bend;
   }
-  const auto sum = [&](const kernels::Array& values, double* force) {
-    if (signals_.empty())
-      std::fill_n(force, padded_modes_, 0.0);
-    else
-      kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values.data(),
-                       force);
-  };
   sum(first_, load0);
   sum(last_, load1);
   if (bend)
@@ -126,6 +116,14 @@ void LoadSum::in_step(double start, double end, double* load0, double* load1, do
     return;
   add_sampled(start, load0);
   add_sampled(end, load1);
+}
+
+/// Of all signals, by a value for each.
+void LoadSum::sum(const kernels::Array& values, double* force) const {
+  if (signals_.empty())
+    std::fill_n(force, padded_modes_, 0.0);
+  else
+    kernels::combine(padded_modes_, static_cast<int>(signals_.size()), shapes_.data(), values.data(), force);
 }
 
 void LoadSum::add_sampled(double time, double* force) {
