@@ -31,51 +31,45 @@ enum Kept : std::size_t {
 template <class>
 FRETWORK_INLINE void watch_coordinate_on(std::size_t n, double h, const double* __restrict u,
                                          const double* __restrict about, double* __restrict sum,
-                                         double* __restrict square, double* __restrict least,
-                                         double* __restrict most) {
+                                         double* __restrict square) {
   for (std::size_t c = 0; c < n; ++c) {
     const double d = u[c] - about[c];
     sum[c] += h * d;
     square[c] += h * d * d;
-    least[c] = u[c] < least[c] ? u[c] : least[c];
-    most[c] = u[c] > most[c] ? u[c] : most[c];
   }
 }
 FRETWORK_KERNEL(void, watch_coordinate,
-                (std::size_t n, double h, const double* u, const double* about, double* sum, double* square,
-                 double* least, double* most),
-                (n, h, u, about, sum, square, least, most))
+                (std::size_t n, double h, const double* u, const double* about, double* sum, double* square),
+                (n, h, u, about, sum, square))
 
 template <class>
 FRETWORK_INLINE void watch_radius_on(std::size_t n, double h, const double* __restrict y0,
                                      const double* __restrict z0, const double* __restrict uy,
                                      const double* __restrict uz, double* __restrict square,
-                                     double* __restrict most) {
+                                     double* __restrict sum) {
   for (std::size_t c = 0; c < n; ++c) {
     const double y = y0[c] + uy[c], z = z0[c] + uz[c];
     const double r2 = y * y + z * z;
-    square[c] += h * r2;
-    most[c] = r2 > most[c] ? r2 : most[c];
+    square[c] = r2;
+    sum[c] += h * r2;
   }
 }
 FRETWORK_KERNEL(void, watch_radius,
                 (std::size_t n, double h, const double* y0, const double* z0, const double* uy,
-                 const double* uz, double* square, double* most),
-                (n, h, y0, z0, uy, uz, square, most))
+                 const double* uz, double* square, double* sum),
+                (n, h, y0, z0, uy, uz, square, sum))
 
 } // namespace
 
 ContactStatistics::ContactStatistics(const std::vector<transient::ContactPoint>& contacts, double from)
-    : from_(from), sums_(contacts.size()), ends_(contact_sums * contacts.size()), maxima_(contacts.size()) {
+    : from_(from), sums_(contacts.size()), motion_(contacts.size()), ends_(contact_sums * contacts.size()),
+      maxima_(contacts.size()) {
   for (const transient::ContactPoint& contact : contacts) {
     supports_.push_back(contact.support);
     side_of_.emplace_back(contact.support.obstacle);
     rest_y_.push_back(contact.rest.y());
     rest_z_.push_back(contact.rest.z());
   }
-  for (auto* v : {&motion_.y0, &motion_.z0, &motion_.y, &motion_.z, &motion_.y2, &motion_.z2, &motion_.y_min,
-                  &motion_.y_max, &motion_.z_min, &motion_.z_max, &motion_.r2, &motion_.r2_max})
-    v->assign(contacts.size(), 0.0);
 }
 
 void ContactStatistics::step(const transient::Record& record) {
@@ -151,12 +145,15 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
   Motion& m = motion_;
   if (!(time_ > 0.0)) // the first of the window
     for (std::size_t c = 0; c < n; ++c) {
-      m.y0[c] = m.y_min[c] = m.y_max[c] = record.uy[c];
-      m.z0[c] = m.z_min[c] = m.z_max[c] = record.uz[c];
+      m.y0[c] = record.uy[c];
+      m.z0[c] = record.uz[c];
     }
-  watch_coordinate(n, h, record.uy, m.y0.data(), m.y.data(), m.y2.data(), m.y_min.data(), m.y_max.data());
-  watch_coordinate(n, h, record.uz, m.z0.data(), m.z.data(), m.z2.data(), m.z_min.data(), m.z_max.data());
-  watch_radius(n, h, rest_y_.data(), rest_z_.data(), record.uy, record.uz, m.r2.data(), m.r2_max.data());
+  watch_coordinate(n, h, record.uy, m.y0.data(), m.y.data(), m.y2.data());
+  watch_coordinate(n, h, record.uz, m.z0.data(), m.z.data(), m.z2.data());
+  watch_radius(n, h, rest_y_.data(), rest_z_.data(), record.uy, record.uz, m.squares.data(), m.r2.data());
+  m.of_y.watch(record.uy, h);
+  m.of_z.watch(record.uz, h);
+  m.of_squares.watch(m.squares.data(), h);
 }
 
 void ContactStatistics::watch_penetration(const transient::Record& record, std::size_t contact) {
@@ -292,10 +289,10 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     }
     o.tangential_rms = std::sqrt(s.tangential2 / time_);
     o.tangential_max = s.tangential_max;
-    o.y = moments(m.y0[c], m.y[c], m.y2[c], m.y_min[c], m.y_max[c]);
-    o.z = moments(m.z0[c], m.z[c], m.z2[c], m.z_min[c], m.z_max[c]);
+    o.y = moments(m.y0[c], m.y[c], m.y2[c], m.of_y.least(c), m.of_y.most(c));
+    o.z = moments(m.z0[c], m.z[c], m.z2[c], m.of_z.least(c), m.of_z.most(c));
     o.radial_rms = std::sqrt(m.r2[c] / time_);
-    o.radial_max = std::sqrt(m.r2_max[c]);
+    o.radial_max = std::sqrt(m.of_squares.most(c));
     const contact::NormalLaw& law = supports_[c].normal;
     o.penetration_max = law.damps() ? s.deepest : s.normal_max / law.stiffness;
     const bool slides = this->slides(c);

@@ -10,6 +10,7 @@
 #include "contact/sides.hpp"
 #include "post/batch_maxima.hpp"
 #include "post/batch_means.hpp"
+#include "post/extremes.hpp"
 #include "post/moments.hpp"
 #include "transient/run.hpp"
 #include <array>
@@ -100,9 +101,16 @@ private:
   /// Sums of displacements, weighted by the step, contact by contact in vector lanes (padded as the record's
   /// arrays); radii are those of positions.
   struct Motion {
-    std::vector<double> y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max;
+    explicit Motion(std::size_t n)
+        : y0(n), z0(n), y(n), z(n), y2(n), z2(n), r2(n), squares(n), of_y(n), of_z(n), of_squares(n) {}
+    std::vector<double> y0, z0, y, z, y2, z2, r2;
+    std::vector<double> squares; ///< m2, of the radii in the step
+    Extremes of_y, of_z, of_squares;
     void visit(core::StateArchive& state) {
-      state(y0, z0, y, z, y2, z2, y_min, y_max, z_min, z_max, r2, r2_max);
+      state(y0, z0, y, z, y2, z2, r2);
+      of_y.visit(state);
+      of_z.visit(state);
+      of_squares.visit(state);
     }
   };
   void watch_motion(const transient::Record& record);

@@ -5,11 +5,13 @@
 
 namespace fretwork::post {
 
-Moments Accumulator::moments() const {
+double Accumulator::mean() const { return weight_ > 0.0 ? first_ + sum_ / weight_ : 0.0; }
+
+double Accumulator::std() const {
   if (!(weight_ > 0.0))
-    return {};
+    return 0.0;
   const double shift = sum_ / weight_;
-  return {first_ + shift, std::sqrt(std::max(0.0, squares_ / weight_ - shift * shift)), min_, max_};
+  return std::sqrt(std::max(0.0, squares_ / weight_ - shift * shift));
 }
 
 } // namespace fretwork::post

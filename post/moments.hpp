@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Mean, standard deviation and extremes of a signal, seen sample by sample. A sample stands for a length of
+/// Mean and standard deviation of a signal, seen sample by sample. A sample stands for a length of
 /// time w, its weight (steps may differ):
 ///     mean = sum w x / sum w,   std^2 = sum w (x - mean)^2 / sum w
 #pragma once
@@ -17,22 +17,21 @@ public:
   /// @param weight  > 0
   void add(double value, double weight) {
     if (!(weight_ > 0.0))
-      first_ = min_ = max_ = value;
+      first_ = value;
     const double d = value - first_;
     sum_ += weight * d;
     squares_ += weight * d * d;
-    min_ = value < min_ ? value : min_;
-    max_ = value > max_ ? value : max_;
     weight_ += weight;
   }
   /// Sums so far of w d and of w d^2, d from the first sample.
   [[nodiscard]] double sum() const { return sum_; }
   [[nodiscard]] double sum_of_squares() const { return squares_; }
-  /// All zero before the first sample.
-  [[nodiscard]] Moments moments() const;
+  /// 0 before the first sample.
+  [[nodiscard]] double mean() const;
+  [[nodiscard]] double std() const;
 
 private:
-  double first_ = 0.0, sum_ = 0.0, squares_ = 0.0, weight_ = 0.0, min_ = 0.0, max_ = 0.0;
+  double first_ = 0.0, sum_ = 0.0, squares_ = 0.0, weight_ = 0.0;
 };
 
 } // namespace fretwork::post

@@ -14,7 +14,7 @@ enum Sum : std::size_t { first, squares, node_sums };
 } // namespace
 
 NodeStatistics::NodeStatistics(const std::vector<Eigen::MatrixXd>& rows, double from)
-    : from_(from), sums_(rows.size()), ends_(3 * node_sums * rows.size()) {
+    : from_(from), sums_(rows.size()), extremes_(3 * rows.size()), ends_(3 * node_sums * rows.size()) {
   const auto width = static_cast<std::size_t>(kernels::padded(3 * static_cast<int>(rows.size())));
   std::vector<std::map<int, std::array<double, kernels::lanes>>> packs(width / kernels::lanes);
   u_.assign(width, 0.0);
@@ -53,6 +53,7 @@ void NodeStatistics::step(const transient::Record& record) {
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
       sums_[node][d].add(u_[3 * node + d], record.step);
+  extremes_.watch(u_.data(), record.step);
   time_ += record.step;
   ends_.watch(time_, [this](double* row) { write_sums(row); });
 }
@@ -76,7 +77,9 @@ std::vector<NodeSummary> NodeStatistics::summaries() const {
     o.batches = std::numeric_limits<double>::infinity();
     for (std::size_t d = 0; d < 3; ++d) {
       const auto* sums = batches.sums.data() + node_sums * (3 * node + d);
-      o.displacement[d] = sums_[node][d].moments();
+      const std::size_t direction = 3 * node + d;
+      o.displacement[d] = {sums_[node][d].mean(), sums_[node][d].std(), extremes_.least(direction),
+                           extremes_.most(direction)};
       const BatchEstimate estimate = batch_deviation(batches.lengths, sums[first], sums[squares],
                                                      sums_[node][d].sum() / time_, o.displacement[d].std);
       o.std_error[d] = estimate.error;

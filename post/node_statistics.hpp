@@ -4,6 +4,7 @@
 #pragma once
 #include "kernels/kernels.hpp"
 #include "post/batch_means.hpp"
+#include "post/extremes.hpp"
 #include "post/moments.hpp"
 #include "signals/prescribed_motion.hpp"
 #include "transient/run.hpp"
@@ -31,7 +32,10 @@ public:
   [[nodiscard]] transient::RecordParts parts_of(const transient::Record& record, double) const override {
     return {record.time >= from_ && !sums_.empty(), false};
   }
-  void visit(core::StateArchive& state) override { state(sums_, time_, ends_); }
+  void visit(core::StateArchive& state) override {
+    state(sums_, time_, ends_);
+    extremes_.visit(state);
+  }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
 
 private:
@@ -41,6 +45,7 @@ private:
   kernels::GatherTable gather_;
   kernels::Array u_;
   std::vector<std::array<Accumulator, 3>> sums_;
+  Extremes extremes_; ///< of direction d of node i: 3 i + d
   double time_ = 0.0; ///< length of the window so far, s
   BatchEnds ends_;
   std::vector<signals::MotionSignal> motions_;

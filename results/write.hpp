@@ -11,7 +11,7 @@
 namespace fretwork::results {
 
 /// Number of the layout of the files: part of what tells whether stored results can be read. Raise it when the layout changes.
-inline constexpr int file_layout = 13;
+inline constexpr int file_layout = 14;
 
 /// summary.json: keys as in doc/results.md; numbers with the shortest text that reads back the same, null
 /// where they are not finite.
