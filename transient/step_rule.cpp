@@ -221,7 +221,7 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     if (const Limit scaled = limit_of_scaled_modes(c, modes.step, fineness); scaled.step < c.step)
       limit(scaled.step > modes.step ? scaled : Limit{modes.step, modes.reason, scaled.cure});
     const double most = limits_of(c.scheme).highest_mode.largest;
-    if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))
+    if (scaling_pays * modes.step <= c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;
     else
       limit(modes);

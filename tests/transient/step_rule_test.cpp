@@ -301,9 +301,12 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
                   contact_beside_structure.share / 200.0, "the structure's frequency at contacts");
   expect_governed(above(2.1), splitting(), mode_share / 420.0, "the highest mode 420 rad/s");
   EXPECT_EQ(choose_step(above(2.1), splitting()).scaled, 0);
-  expect_governed(above(2.4), splitting(), beside_scaled / 200.0,
+  const double just = scaled_above * scaling_pays; // from here on the step is longer by what pays
+  expect_governed(above(0.99 * just), splitting(), mode_share / (0.99 * just * 200.0), "the highest mode");
+  EXPECT_EQ(choose_step(above(0.99 * just), splitting()).scaled, 0);
+  expect_governed(above(1.01 * just), splitting(), beside_scaled / 200.0,
                   "modes up to 2.25 times the contact frequency 200 rad/s");
-  EXPECT_EQ(choose_step(above(2.4), splitting()).scaled, 1);
+  EXPECT_EQ(choose_step(above(1.01 * just), splitting()).scaled, 1);
   const Scene sticking = scene_with({Circle{0.1}, {2.0}, {8e4, 0.0, 0.3, 0.3}}, 1000.0, Vec3(0, 8e8, 0));
   expect_governed(sticking, splitting(), beside_scaled / 200.0,
                   "modes up to 2.25 times the frequency of sticking contacts 200 rad/s");
