@@ -12,7 +12,7 @@ namespace fretwork::bench {
 namespace {
 
 constexpr int fewest_members = 8, most_members = 16;
-constexpr double pilot_periods = 40.0, fewest_periods = 60.0, most_periods = 4000.0;
+constexpr double pilot_periods = 40.0, fewest_periods = 60.0;
 constexpr double skipped_share = 0.1; ///< of the duration, before the window
 constexpr double disturbance = 0.02;  ///< of the gap, from member to member
 constexpr double negligible = 1e-3;

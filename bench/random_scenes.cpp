@@ -146,15 +146,33 @@ Place draw_place(Draw& draw, double gap, double overlap, bool tube) {
 }
 
 signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about, double amplitude) {
-  const bool harmonic = draw.chance(0.45);
-  if (harmonic) {
+  const double kind = draw.uniform(0.0, 1.0);
+  if (kind < 0.45) {
     const double f = about * draw.logarithmic(0.4, 3.0), r = f / frequency;
     const double gain = std::clamp(std::hypot(1.0 - r * r, 2.0 * ratio * r), 0.1, 3.0);
     return signals::Harmonic{std::numbers::sqrt2 * amplitude * gain, f, draw.uniform(0.0, 2.0 * pi)};
   }
+  if (kind > 0.85) {
+    const double distance = draw.logarithmic(0.05, 0.5) / about; // of two rows, the mean
+    const double resonance = pi * frequency * distance / (2.0 * ratio);
+    const double largest = amplitude * std::sqrt(3.0 / (1.0 + resonance));
+    signals::Table out;
+    for (double time = 0.0; time < most_periods / about; time += distance * draw.uniform(0.3, 1.7)) {
+      out.time.push_back(time);
+      out.value.push_back(largest * draw.uniform(-1.0, 1.0));
+    }
+    return out;
+  }
   const double low = about * draw.uniform(0.2, 0.7), high = about * draw.logarithmic(2.0, 8.0);
   const double resonance = pi * frequency / (4.0 * ratio * (high - low));
   return signals::Random{amplitude / std::sqrt(1.0 + resonance), low, high, draw.seed()};
+}
+
+char letter_of(const signals::TimeFunction& load) {
+  return std::holds_alternative<signals::Harmonic>(load) ? 'h'
+         : std::holds_alternative<signals::Random>(load) ? 'r'
+         : std::holds_alternative<signals::Table>(load)  ? 't'
+                                                         : 'c';
 }
 
 RandomScene random_mass(Draw& draw) {
@@ -188,7 +206,7 @@ RandomScene random_mass(Draw& draw) {
     vibration::Load load{draw_load(draw, frequency[i], ratio, lowest, size), Eigen::VectorXd::Zero(3)};
     load.modal_force(i) = std::sqrt(mass) * scene.system.stiffness(i);
     const bool none = i == 0 && draw.chance(0.15);
-    loads += none ? '-' : std::holds_alternative<signals::Harmonic>(load.function) ? 'h' : 'r';
+    loads += none ? '-' : letter_of(load.function);
     if (!none)
       scene.loads.push_back(load);
     if (draw.chance(0.25)) {

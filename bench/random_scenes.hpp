@@ -10,7 +10,8 @@
 /// Common to all: w_c is 5 to 50 times the lowest mode (tubes: of one span); normal damping ratio 0 (two fifths) to 0.3, sometimes Hunt and
 /// Crossley's; mu 0.1 to 1, in a quarter of the scenes with a static coefficient up to 1.6 times as large; K_T/K_N 0.01 to 1; C_T 0 (a
 /// fifth), automatic or 0.05 to 1 of the critical damping of the mass that the contact feels; friction in the tangent plane, or restricted
-/// to one direction. Contacts are open, touch, stand out of the middle or are pressed. Loads are harmonic, random and constant.
+/// to one direction. Contacts are open, touch, stand out of the middle or are pressed. Loads are harmonic, random, constant, or tables of 2
+/// to 20 rows a period, at unequal distances, with lines between them.
 #pragma once
 #include "transient/scene/scene.hpp"
 #include <cstdint>
@@ -71,10 +72,14 @@ struct Place {
 /// Of one node. @param gap  m   @param overlap  m: how deep a pressed node is in it   @param tube  with the shapes of supports of tubes
 [[nodiscard]] Place draw_place(Draw& draw, double gap, double overlap, bool tube);
 
-/// A load per unit of stiffness, m: harmonic, or noise in a band, such that an oscillator of a frequency (Hz) and damping ratio moves by
-/// some `amplitude` (rms, m). `about`: the frequency (Hz) about which it is.
+/// Periods of the lowest mode (tubes: of a span) that a scene can last: its tables have rows until then.
+inline constexpr double most_periods = 4000.0;
+
+/// A load per unit of stiffness, m: harmonic, a table or noise in a band, such that an oscillator of a frequency (Hz) and damping ratio
+/// moves by some `amplitude` (rms, m). `about`: the frequency (Hz) about which it is, that of the scene's period.
 [[nodiscard]] signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about,
                                               double amplitude);
+[[nodiscard]] char letter_of(const signals::TimeFunction& load);
 
 /// Of a mass, of one tube or of two (random_tubes.cpp).
 [[nodiscard]] RandomScene random_mass(Draw& draw);

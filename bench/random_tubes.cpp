@@ -108,9 +108,7 @@ void add_loads(Draw& draw, transient::Scene& scene, const Tube& tube, double rat
       load.function = signals::Constant{amplitude * draw.uniform(0.2, 1.0)};
     for (int j = 0; j < loaded; ++j)
       load.modal_force(tube.first + 2 * j + plane) = unit * draw.uniform(-1.0, 1.0) / std::sqrt(loaded / 3.0);
-    names += std::holds_alternative<signals::Harmonic>(load.function) ? 'h'
-             : std::holds_alternative<signals::Random>(load.function) ? 'r'
-                                                                      : 'c';
+    names += letter_of(load.function);
     scene.loads.push_back(load);
   }
 }

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // One text for all processors: the loader takes the clone that the processor has.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
@@ -51,10 +52,11 @@ Matrix5 exponential(Matrix5 a) {
   return sum;
 }
 
-bool is_smooth(const signals::TimeFunction& function) {
+bool is_known(const signals::TimeFunction& function) {
   return std::holds_alternative<signals::Random>(function) ||
          std::holds_alternative<signals::Harmonic>(function) ||
-         std::holds_alternative<signals::Constant>(function);
+         std::holds_alternative<signals::Constant>(function) ||
+         std::holds_alternative<signals::Table>(function);
 }
 
 } // namespace
@@ -85,14 +87,17 @@ ReferenceFlow::ReferenceFlow(const transient::Scene& scene, double step)
     a->assign(n_, 0.0);
   double fastest = 0.0;
   for (const vibration::Load& load : scene.loads) {
-    if (!is_smooth(load.function))
-      throw core::Error("the reference solution takes constant, harmonic and random loads only");
+    if (!is_known(load.function))
+      throw core::Error("the reference solution takes constant, harmonic and random loads and tables only");
+    if (const auto* table = std::get_if<signals::Table>(&load.function))
+      rows_.insert(rows_.end(), table->time.begin(), table->time.end());
     signals_.emplace_back(load.function, scene.duration);
     fastest = std::max(fastest, two_pi * signals::highest_frequency(load.function));
     auto& shape = shapes_.emplace_back();
     for (const Eigen::Index i : order_)
       shape.push_back(load.modal_force(i));
   }
+  std::sort(rows_.begin(), rows_.end());
   const double highest = std::sqrt(scene.system.stiffness.maxCoeff());
   double longest = duration_ / 1000.0;
   longest = fastest > 0.0 ? std::min(longest, parabola_phase / fastest) : longest;
@@ -153,16 +158,25 @@ void ReferenceFlow::load_at(double time, std::vector<double>& force) const {
     add(n_, signals_[k](time), shapes_[k].data(), force.data());
 }
 
-/// The line on which the loads are for the next `line_steps_` steps, at the middle of the first.
+std::int64_t ReferenceFlow::steps_to_row() {
+  const double time = (static_cast<double>(unit_) + 1e-6) * h_;
+  while (row_ < rows_.size() && rows_[row_] <= time)
+    ++row_;
+  if (row_ == rows_.size())
+    return std::numeric_limits<std::int64_t>::max();
+  return static_cast<std::int64_t>((rows_[row_] - time) / h_ + 2e-6);
+}
+
+/// The line on which the loads are for the next steps, `line_steps_` or those to the next row, at the middle of the first.
 void ReferenceFlow::renew_line() {
-  const double time = static_cast<double>(unit_) * h_, share = 1.0 / static_cast<double>(line_steps_);
+  line_left_ = std::clamp(steps_to_row(), std::int64_t{1}, line_steps_);
+  const double time = static_cast<double>(unit_) * h_, share = 1.0 / static_cast<double>(line_left_);
   load_at(time, load_);
-  load_at(std::min(time + static_cast<double>(line_steps_) * h_, duration_), last_);
+  load_at(std::min(time + static_cast<double>(line_left_) * h_, duration_), last_);
   for (std::size_t i = 0; i < n_; ++i) {
     slope_[i] = share * (last_[i] - load_[i]);
     load_[i] += 0.5 * slope_[i];
   }
-  line_left_ = line_steps_;
 }
 
 void ReferenceFlow::advance() {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
 /// The modes of the reference solution (reference_solution.hpp) between contact impulses: their exact flow over 2^k steps, from the
-/// exponential of their equations. Over one step loads lie on a line that is renewed every 0.03 rad of the fastest load, over longer flows
-/// on a parabola (up to 0.25 rad).
+/// exponential of their equations. Over one step loads lie on a line that is renewed every 0.03 rad of the fastest load and at each row of
+/// a table, over longer flows on a parabola (up to 0.25 rad).
 ///
 /// Modes are sorted by what they move: those along y_loc of any contact first, those along z_loc next; both ranges may overlap.
 #pragma once
@@ -14,13 +14,16 @@ namespace fretwork::bench {
 
 class ReferenceFlow {
 public:
-  /// @param step  s   @throws core::Error for loads other than constant, harmonic and random ones
+  /// @param step  s   @throws core::Error for loads other than constant, harmonic and random ones and tables
   ReferenceFlow(const transient::Scene& scene, double step);
 
   std::vector<double> q, v;
   [[nodiscard]] std::int64_t unit() const { return unit_; } ///< steps since t = 0
   /// Over one step.
   void advance();
+
+  /// Whole steps until the next row of a table: no longer flow has its loads on a parabola.
+  [[nodiscard]] std::int64_t steps_to_row();
 
   [[nodiscard]] int levels() const { return static_cast<int>(flows_.size()); }
   /// Over 2^level steps to far_q and far_v, level > 0.
@@ -58,6 +61,8 @@ private:
   std::vector<std::vector<double>> shapes_; ///< modal forces
   std::vector<Table> flows_;
   std::vector<double> load_, slope_, middle_, last_;
+  std::vector<double> rows_;                               ///< s, of all tables
+  std::size_t row_ = 0;                                    ///< the next one
   std::int64_t unit_ = 0, line_left_ = 0, line_steps_ = 1; ///< steps
   int level_ = 0;
 };

@@ -102,7 +102,7 @@ void ReferenceSolution::run(double from) {
 bool ReferenceSolution::macro_step(std::int64_t end) {
   if (next_broad_phase_ != flow_.unit() + broad_phase_every_)
     broad_phase();
-  double time = static_cast<double>(end - flow_.unit()) * h_;
+  double time = static_cast<double>(std::min(end - flow_.unit(), flow_.steps_to_row())) * h_;
   for (std::size_t c = 0; c < count_; ++c)
     time = std::min(time, travel_share * contacts_[c].gap() / std::max(speed_[c], 1e-300));
   int level = 0;
