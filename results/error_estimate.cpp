@@ -52,18 +52,19 @@ std::string percent(double share) {
   return fmt::format(fmt::runtime(share < 0.995 ? "{:.2g}" : "{:.0f}"), 100.0 * share);
 }
 
+/// A standard error, or a bound of an error, above this share of the figure says little.
+constexpr double says_little = 0.3;
+
 /// The scatter of a window, and that it says little where it is large. Where nothing slides it is that of the impacts alone.
 std::string scatter_text(const RunResults& results, double scatter) {
-  constexpr double says_little = 0.3;
   const bool slides = sum(results, &post::ContactSummary::work_rate) > 0.0;
   return percent(scatter) + " % standard error of " +
          (slides ? "this window" : "the rate of impacts in this window (there is no work of sliding)") +
          (scatter > says_little ? ", which is too short for statistics or holds no stationary motion" : "");
 }
 
-/// The largest error that replays resolve, and bounds of those that may be larger; a bound above the figure itself is none.
+/// The largest error that replays resolve, and bounds of those that may be larger. An error whose bound says little is unknown; a bound above the figure itself is none.
 std::string step_text(const ErrorsOfSums& errors) {
-  constexpr double no_bound = 1.0;
   std::string known, unknown;
   const auto join = [](std::string& text, const std::string& more) {
     text += (text.empty() ? "" : " and ") + more;
@@ -72,15 +73,16 @@ std::string step_text(const ErrorsOfSums& errors) {
     join(known,
          fmt::format("{} by {} +- {} %", e->name, percent(std::abs(e->value)), percent(e->standard_error)));
   for (const auto& e : {errors.least_known, errors.impacts})
-    if (e && e->upper_bound() > no_bound)
-      join(unknown, e->name);
+    if (e && e->upper_bound() > says_little)
+      join(unknown, e->upper_bound() > 1.0
+                        ? e->name
+                        : fmt::format("{} (below {} %)", e->name, percent(e->upper_bound())));
     else if (e)
       join(known, fmt::format("{} by less than {} %", e->name, percent(e->upper_bound())));
   if (!known.empty())
     known = "; the step changes " + known + " over all contacts (replays)";
   if (!unknown.empty())
-    known += "; by how much the step changes " + unknown +
-             " is unknown (replays scatter by more than the figure itself)";
+    known += "; by how much the step changes " + unknown + " is unknown (replays, which scatter too much)";
   return known;
 }
 

@@ -131,14 +131,16 @@ TEST(StepErrors, ThatReplaysResolveComeFirstAndOthersAreBounds) {
               ends_with("work_rate by less than 5 % and impacts_per_second by less than 20 %"));
   EXPECT_THAT(estimate_of(0.0, 0.0, 0.001, 0.001).text, ends_with("impacts_per_second by less than 0.3 %"));
   EXPECT_THAT(estimate_of(0.0, 0.0, 0.0, 0.0).text, ends_with("work_rate by 0 +- 0 %"));
-  // a bound that is above the figure itself says nothing
+  // a bound of a third of the figure says little, one above the figure itself nothing
   const auto unknown = [](const std::string& name) {
-    return "; by how much the step changes " + name +
-           " is unknown (replays scatter by more than the figure itself)";
+    return "; by how much the step changes " + name + " is unknown (replays, which scatter too much)";
   };
   EXPECT_THAT(estimate_of(0.01, 0.001, 0.0, 1.635).text,
               testing::EndsWith("; the step changes work_rate by 1 +- 0.1 % over all contacts (replays)" +
                                 unknown("impacts_per_second")));
+  EXPECT_THAT(estimate_of(0.01, 0.001, 0.0, 0.3).text,
+              testing::EndsWith("; the step changes work_rate by 1 +- 0.1 % over all contacts (replays)" +
+                                unknown("impacts_per_second (below 60 %)")));
   EXPECT_THAT(
       estimate_of(0.01, 0.6, 0.0, 1.635).text,
       testing::EndsWith("standard error of this window" + unknown("work_rate and impacts_per_second")));
