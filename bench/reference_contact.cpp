@@ -21,6 +21,18 @@ Vec2 solve(const Sym2& a, double s, Vec2 b) {
   return {(tt * b.x - xt * b.t) / det, (xx * b.t - xt * b.x) / det};
 }
 
+/// Perfect plasticity: tan(a/2) of the angle between a spring at its bound and what drives it falls as exp(-drive/bound).
+Vec2 turned(Vec2 spring, Vec2 drive, double bound) {
+  const double length = norm(drive), cross = spring.x * drive.t - spring.t * drive.x;
+  if (!(length > 0.0 && bound > 0.0))
+    return scaled_to(spring, bound);
+  const double angle = std::atan2(cross, dot(spring, drive)),
+               left = 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-length / bound));
+  const Vec2 along = (bound / length) * drive;
+  return {std::cos(left) * along.x + std::sin(left) * along.t,
+          std::cos(left) * along.t - std::sin(left) * along.x};
+}
+
 Local operator+(Local a, Local b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Local operator*(const Response& r, Local f) {
   return {r[0] * f.x + r[1] * f.y + r[2] * f.z, r[3] * f.x + r[4] * f.y + r[5] * f.z,
@@ -82,7 +94,7 @@ ReferenceContact::Friction ReferenceContact::friction(double normal, Vec2 free, 
   if (!(law.damping > 0.0)) {
     if (norm(loaded_) <= bound)
       return {loaded_, loaded_, false};
-    const Vec2 force = scaled_to(loaded_, slip);
+    const Vec2 force = slides_ ? turned(spring_, loaded_ - spring_, slip) : scaled_to(loaded_, slip);
     return {force, force, true};
   }
   // F = g (base - C_T v) in stick, v = free + response F
@@ -171,8 +183,8 @@ void ReferenceContact::add(double h) {
     const Vec2 stretching = (1.0 / law.damping) * (friction_.spring - force);
     slider_ -= h * dot(force, velocity_ - stretching);
   } else { // -F.dz; F goes from where the slip begins to this one
-    const double bound = norm(force), began = slides_ || !closed_ ? norm(force_) : slip_began();
-    const Vec2 mean = (0.5 + 0.5 * began / bound) * force;
+    const double began = slides_ || !closed_ ? norm(force_) : slip_began();
+    const Vec2 mean = slides_ ? 0.5 * (force_ + force) : (0.5 + 0.5 * began / norm(force)) * force;
     slider_ -= dot(mean, force - loaded_) / law.stiffness;
   }
 }

@@ -66,6 +66,12 @@ Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   return unit(force_of_length(length, plus(1.0, s * a), b));
 }
 
+/// Direction after a turn towards `to`: e' = to - (to . e) e over an angle `a`, which a boost along `to` by the rapidity a gives.
+Vec2 turned(Vec2 e, Vec2 to, double a) {
+  const double t = std::tanh(0.5 * a), c = dot(e, to);
+  return unit((1.0 - t * t) * e + (2.0 * t * (1.0 + t * c)) * to);
+}
+
 StickTable stick_of(const FrictionLaw& law, double mobility, double length) {
   StickTable t;
   t.length = length;
@@ -85,6 +91,8 @@ SlipTable slip_of(const FrictionLaw& law, double length) {
                  ? 1.0 / 12.0
                  : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
   t.gradient = t.share * law.stiffness + c;
+  t.rate = c;
+  t.excess = r < no_damper ? -std::expm1(-r * t.share) / (r * t.share) : 0.0;
   return t;
 }
 
@@ -274,26 +282,39 @@ private:
   [[nodiscard]] double settled_speed(V along, V velocity, double rate) const {
     return -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
   }
-  [[nodiscard]] Piece slipping(const SlipTable& t, V before) const {
-    Piece p;
+  /// With the directions of the force at the start and at the share s.
+  void move_slipping(const SlipTable& t, V before, V goal, V free, Piece& p) const {
     const double mu = law_.mu_dynamic;
-    const double bound = mu * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
-    const V free = free_displacement(t.length);
-    V mean = before, goal = before; // F_s
-    p.along = before;
-    if constexpr (std::is_same_v<V, Vec2>) {
-      goal = direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound);
-      if (dot(goal, before) < turned_round)
-        goal = before;
-      const V turn = (1.0 / t.share) * (goal - before);
-      mean = unit(before + 0.5 * turn);
-      p.along = unit(before + turn);
-    }
+    const V turn = (1.0 / t.share) * (goal - before);
+    p.along = unit(before + turn);
     p.normal = normal_after(t.length);
-    p.force = mu * mean_normal(t.length, p.normal) * mean;
+    p.force = mu * mean_normal(t.length, p.normal) * unit(before + 0.5 * turn);
     p.growth = mu * (p.normal * p.along - normal_ * before);
     p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth)) +
            fourth_of(t.length) * (path_.compliance * p.growth);
+  }
+  /// That at the share s, of a displacement.
+  [[nodiscard]] Vec2 turned_by(const SlipTable& t, Vec2 by, double bound) const {
+    const Vec2 trial = out_.spring - t.rate * by, start = unit(trial), to = unit(-1.0 * by);
+    const double least = 0.5 * (law_.mu_dynamic * normal_ + bound),
+                 settled = least + t.rate * norm(by) * std::max(0.0, dot(start, to));
+    const double length = settled + (norm(trial) - settled) * t.excess;
+    return turned(start, to, t.share * law_.stiffness * norm(by) / length);
+  }
+  [[nodiscard]] Piece slipping(const SlipTable& t, V before) const {
+    Piece p;
+    const double bound = law_.mu_dynamic * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
+    const V free = free_displacement(t.length);
+    V goal = before; // of F_s
+    if constexpr (std::is_same_v<V, Vec2>) {
+      const auto ahead = [&](Vec2 direction) {
+        return dot(direction, before) < turned_round ? before : direction;
+      };
+      goal = ahead(direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound));
+      move_slipping(t, before, goal, free, p);
+      goal = ahead(turned_by(t, p.by, bound));
+    }
+    move_slipping(t, before, goal, free, p);
     p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
     return p;

@@ -8,10 +8,13 @@
 ///     stick  F = T - A K_T dx + K_T' (tau (v1 - v)/12 - L - Y (F + 5 K_T' dx/8)) - C_T dx/tau,   G = -K_T' dx - c' (v1 - v);   T1 = T - K_T dx;
 ///            until |T - C_T v| reaches mu_s N
 ///     slip   F: mu_d times the mean of N, G: its growth;   T1 = T + (1 - e^-r)(F_s - T),  r = K_T tau/C_T;   until the slider stands
-/// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there and along T - (s K_T + C_T/tau) dx; T1 is exact where F is a
-/// parabola, from slow dampers (s = 1/2) to none (s = 1: radial return). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper
-/// -v - mu_d N'/K_T along F. Stick is of order 4, as the normal motion; where a contact begins and ends to slide is found to order 2; directions of slip
-/// that turn without damper: order 1.
+/// F_s is the force at the share s = 1/(1 - e^-r) - 1/r of the piece, of length mu_d N there; T1 is exact where F is a parabola, from slow dampers (s = 1/2)
+/// to none (s = 1). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper -v - mu_d N'/K_T along F.
+/// In a plane F is along e, that of P = T - C_T v, and turns towards g = -v/|v|:
+///     e' = (K_T |v|/|P|) (g - (g . e) e),    |P|' = -(K_T/C_T) (|P| - mu_d N - C_T |v| g . e)
+/// At a constant velocity tan(a/2) of the angle a between e and g falls as exp(-K_T integral of |v|/|P|), the tractrix where there is no damper. The displacement
+/// of the piece is found with F_s along T - (s K_T + C_T/tau) dx (radial return), which is implicit; e then by it.
+/// Stick is of order 4, as the normal motion; where a contact begins and ends to slide, and how its direction turns, is found to order 2.
 #pragma once
 #include "contact/friction_law.hpp"
 #include "contact/normal_interval.hpp"
@@ -48,6 +51,8 @@ struct SlipTable {
   double spread;   ///< variance of the share of the piece that F_s stands for
   double relaxed;  ///< 1 - e^-r
   double gradient; ///< s K_T + C_T/tau, N/m
+  double rate;     ///< C_T/tau, N/m
+  double excess;   ///< mean of e^(-r t/tau) until the share s
 };
 struct PieceTables {
   StickTable stick;

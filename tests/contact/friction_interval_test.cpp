@@ -27,24 +27,63 @@ template <class V, class M> TangentialPath<V, M> driven(V velocity) { return {ve
 
 } // namespace
 
-TEST(FrictionInterval, LeadsASpringWithoutDamperBackToTheBoundRadially) {
-  // perfect plasticity: a spring at the bound, pushed at right angles, turns towards the motion: tan(a/2) falls as exp(-K x/bound)
+TEST(FrictionInterval, TurnsASpringWithoutDamperAsPerfectPlasticity) {
+  // at the bound, pushed at right angles, it turns towards the motion: tan(a/2) falls as exp(-K x/bound), in intervals of any length
   constexpr double bound = 0.5, length = 1.0, speed = 0.3;
-  for (const int intervals : {16, 32, 64}) {
+  const double angle = 2.0 * std::atan(std::exp(-law.stiffness * speed * length / bound)); // from -velocity
+  for (const int intervals : {1, 2, 16}) {
     Vec2 spring{bound, 0.0};
+    double work = 0.0;
     const double dt = length / intervals;
     for (int i = 0; i < intervals; ++i) {
       const PieceTables table = piece_tables(law, 0.0, dt);
       const auto f = friction_over_interval(law, table, 0.0, spring, true, dt, line(1.0, 1.0),
                                             driven<Vec2, Sym2>({0.0, speed}));
       spring = f.spring;
+      work += f.slider_work;
       EXPECT_NEAR(norm(spring), bound, round_off);
-      EXPECT_GE(f.slider_work, 0.0);
     }
-    const double turned =
-        2.0 * std::atan(std::exp(-law.stiffness * speed * length / bound)); // from -velocity
-    const double angle = std::acos(-spring.t / bound);
-    EXPECT_NEAR(angle, turned, 0.2 / intervals) << intervals; // of order 1
+    EXPECT_NEAR(std::acos(-spring.t / bound), angle, 1e-12) << intervals;
+    // what the spring does not keep: bound times the integral of speed cos(a)
+    const double spent = bound * bound / law.stiffness * std::log(1.0 / std::sin(angle));
+    EXPECT_NEAR(work / spent, 1.0, 0.05 / (intervals * intervals)) << intervals;
+  }
+}
+
+TEST(FrictionInterval, TurnsItsDirectionOfSlipToOrderTwo) {
+  // a velocity that turns, a bound that grows, a mobility, from no damper to a slow one
+  const Sym2 mobility{0.4, 0.1, 0.7};
+  constexpr double duration = 4.0, rate = 0.8;
+  struct Course {
+    Vec2 spring, velocity;
+    double work;
+  };
+  for (const double damping : {0.0, 1e-4, 0.05, 0.5, 5.0}) {
+    const FrictionLaw turning{2.0, damping, 0.5, 0.5};
+    const auto after = [&](int intervals) {
+      const double dt = duration / intervals;
+      const PieceTables table = piece_tables(turning, 0.7, dt);
+      Course out{{0.3, -0.4}, {-0.5, 1.5}, 0.0};
+      for (int i = 0; i < intervals; ++i) {
+        const double t0 = i * dt, t1 = t0 + dt;
+        // a(t) = 1.5 (cos(rate t), sin(rate t)), a line over the interval
+        const Vec2 a0{1.5 * std::cos(rate * t0), 1.5 * std::sin(rate * t0)},
+            a1{1.5 * std::cos(rate * t1), 1.5 * std::sin(rate * t1)};
+        const auto f = friction_over_interval(turning, table, 0.7, out.spring, true, dt,
+                                              line(1.0 + 0.1 * t0, 1.0 + 0.1 * t1),
+                                              {out.velocity, a0, (1.0 / dt) * (a1 - a0), mobility});
+        EXPECT_NEAR(f.sliding_time, dt, round_off) << damping;
+        out = {f.spring, f.velocity, out.work + f.slider_work};
+      }
+      return out;
+    };
+    const Course exact = after(4096), coarse = after(16), fine = after(32);
+    const auto error = [&](const Course& c) {
+      return norm(c.spring - exact.spring) + norm(c.velocity - exact.velocity);
+    };
+    EXPECT_LT(error(coarse), 0.03) << damping;
+    EXPECT_GT(std::log2(error(coarse) / error(fine)), 1.6) << damping;
+    EXPECT_NEAR(coarse.work / exact.work, 1.0, 0.01) << damping;
   }
 }
 
