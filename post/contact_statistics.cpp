@@ -45,19 +45,19 @@ FRETWORK_KERNEL(void, watch_coordinate,
 template <class>
 FRETWORK_INLINE void watch_radius_on(std::size_t n, double h, const double* __restrict y0,
                                      const double* __restrict z0, const double* __restrict uy,
-                                     const double* __restrict uz, double* __restrict square,
+                                     const double* __restrict uz, double* __restrict radius,
                                      double* __restrict sum) {
   for (std::size_t c = 0; c < n; ++c) {
     const double y = y0[c] + uy[c], z = z0[c] + uz[c];
     const double r2 = y * y + z * z;
-    square[c] = r2;
+    radius[c] = std::sqrt(r2);
     sum[c] += h * r2;
   }
 }
 FRETWORK_KERNEL(void, watch_radius,
                 (std::size_t n, double h, const double* y0, const double* z0, const double* uy,
-                 const double* uz, double* square, double* sum),
-                (n, h, y0, z0, uy, uz, square, sum))
+                 const double* uz, double* radius, double* sum),
+                (n, h, y0, z0, uy, uz, radius, sum))
 
 } // namespace
 
@@ -150,10 +150,10 @@ void ContactStatistics::watch_motion(const transient::Record& record) {
     }
   watch_coordinate(n, h, record.uy, m.y0.data(), m.y.data(), m.y2.data());
   watch_coordinate(n, h, record.uz, m.z0.data(), m.z.data(), m.z2.data());
-  watch_radius(n, h, rest_y_.data(), rest_z_.data(), record.uy, record.uz, m.squares.data(), m.r2.data());
-  m.of_y.watch(record.uy, h);
-  m.of_z.watch(record.uz, h);
-  m.of_squares.watch(m.squares.data(), h);
+  watch_radius(n, h, rest_y_.data(), rest_z_.data(), record.uy, record.uz, m.radius.data(), m.r2.data());
+  m.of_y.watch(record.uy, record.time);
+  m.of_z.watch(record.uz, record.time);
+  m.of_radius.watch(m.radius.data(), record.time);
 }
 
 void ContactStatistics::watch_penetration(const transient::Record& record, std::size_t contact) {
@@ -289,10 +289,10 @@ std::vector<ContactSummary> ContactStatistics::summaries() const {
     }
     o.tangential_rms = std::sqrt(s.tangential2 / time_);
     o.tangential_max = s.tangential_max;
-    o.y = moments(m.y0[c], m.y[c], m.y2[c], m.of_y.least(c), m.of_y.most(c));
-    o.z = moments(m.z0[c], m.z[c], m.z2[c], m.of_z.least(c), m.of_z.most(c));
+    o.y = moments(m.y0[c], m.y[c], m.y2[c], m.of_y.min(c), m.of_y.max(c));
+    o.z = moments(m.z0[c], m.z[c], m.z2[c], m.of_z.min(c), m.of_z.max(c));
     o.radial_rms = std::sqrt(m.r2[c] / time_);
-    o.radial_max = std::sqrt(m.of_squares.most(c));
+    o.radial_max = m.of_radius.max(c);
     const contact::NormalLaw& law = supports_[c].normal;
     o.penetration_max = law.damps() ? s.deepest : s.normal_max / law.stiffness;
     const bool slides = this->slides(c);

@@ -98,20 +98,14 @@ private:
     /// A step with force, in the window.
     void add(const transient::ContactState& state, double step, const contact::SideFinder& side_of);
   };
-  /// Sums of displacements, weighted by the step, contact by contact in vector lanes (padded as the record's
-  /// arrays); radii are those of positions.
+  /// Sums of displacements, weighted by the step, contact by contact in vector lanes; radii are those of positions.
   struct Motion {
     explicit Motion(std::size_t n)
-        : y0(n), z0(n), y(n), z(n), y2(n), z2(n), r2(n), squares(n), of_y(n), of_z(n), of_squares(n) {}
+        : y0(n), z0(n), y(n), z(n), y2(n), z2(n), r2(n), radius(n), of_y(n), of_z(n), of_radius(n) {}
     std::vector<double> y0, z0, y, z, y2, z2, r2;
-    std::vector<double> squares; ///< m2, of the radii in the step
-    Extremes of_y, of_z, of_squares;
-    void visit(core::StateArchive& state) {
-      state(y0, z0, y, z, y2, z2, r2);
-      of_y.visit(state);
-      of_z.visit(state);
-      of_squares.visit(state);
-    }
+    std::vector<double> radius; ///< m, in the step
+    Extremes of_y, of_z, of_radius;
+    void visit(core::StateArchive& state) { state(y0, z0, y, z, y2, z2, r2, of_y, of_z, of_radius); }
   };
   void watch_motion(const transient::Record& record);
   void watch_penetration(const transient::Record& record, std::size_t contact);

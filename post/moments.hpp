@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// Mean and standard deviation of a signal, seen sample by sample. A sample stands for a length of
+/// Mean and standard deviation of a signal, seen sample by sample; its extremes are those of extremes.hpp. A sample stands for a length of
 /// time w, its weight (steps may differ):
 ///     mean = sum w x / sum w,   std^2 = sum w (x - mean)^2 / sum w
 #pragma once

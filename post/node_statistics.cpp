@@ -53,7 +53,7 @@ void NodeStatistics::step(const transient::Record& record) {
   for (std::size_t node = 0; node < sums_.size(); ++node)
     for (std::size_t d = 0; d < 3; ++d)
       sums_[node][d].add(u_[3 * node + d], record.step);
-  extremes_.watch(u_.data(), record.step);
+  extremes_.watch(u_.data(), record.time);
   time_ += record.step;
   ends_.watch(time_, [this](double* row) { write_sums(row); });
 }
@@ -76,10 +76,10 @@ std::vector<NodeSummary> NodeStatistics::summaries() const {
     NodeSummary& o = out[node];
     o.batches = std::numeric_limits<double>::infinity();
     for (std::size_t d = 0; d < 3; ++d) {
-      const auto* sums = batches.sums.data() + node_sums * (3 * node + d);
       const std::size_t direction = 3 * node + d;
-      o.displacement[d] = {sums_[node][d].mean(), sums_[node][d].std(), extremes_.least(direction),
-                           extremes_.most(direction)};
+      const auto* sums = batches.sums.data() + node_sums * direction;
+      o.displacement[d] = {sums_[node][d].mean(), sums_[node][d].std(), extremes_.min(direction),
+                           extremes_.max(direction)};
       const BatchEstimate estimate = batch_deviation(batches.lengths, sums[first], sums[squares],
                                                      sums_[node][d].sum() / time_, o.displacement[d].std);
       o.std_error[d] = estimate.error;

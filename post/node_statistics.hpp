@@ -32,10 +32,7 @@ public:
   [[nodiscard]] transient::RecordParts parts_of(const transient::Record& record, double) const override {
     return {record.time >= from_ && !sums_.empty(), false};
   }
-  void visit(core::StateArchive& state) override {
-    state(sums_, time_, ends_);
-    extremes_.visit(state);
-  }
+  void visit(core::StateArchive& state) override { state(sums_, extremes_, time_, ends_); }
   [[nodiscard]] std::vector<NodeSummary> summaries() const;
 
 private:
