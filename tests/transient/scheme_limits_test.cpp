@@ -65,7 +65,7 @@ TEST(SchemeLimits, OfAllAndOfSplittingAloneAreThoseOfTheManual) {
       fmt::format("{}; {}", structure_at_contacts.share, contact_beside_structure.share),
       fmt::format("{}; {}", table_share, contact_beside_tables),
       fmt::format("{}; {}; {}", record_share, record_share_without_contacts, fewest_points_of_records),
-      fmt::format("{}; {}; {}", scaled_above, scaled_up_to_damper, scaling_pays),
+      fmt::format("{}; {}; {}", scaled_above, scaled_up_to_damper, least_gain_of_scaling),
       fmt::format("{}", coarsest_accuracy)};
   EXPECT_EQ(values, expected);
 }

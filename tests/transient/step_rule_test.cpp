@@ -301,7 +301,7 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
                   contact_beside_structure.share / 200.0, "the structure's frequency at contacts");
   expect_governed(above(2.1), splitting(), mode_share / 420.0, "the highest mode 420 rad/s");
   EXPECT_EQ(choose_step(above(2.1), splitting()).scaled, 0);
-  const double just = scaled_above * scaling_pays; // from here on the step is longer by what pays
+  const double just = scaled_above * least_gain_of_scaling;
   expect_governed(above(0.99 * just), splitting(), mode_share / (0.99 * just * 200.0), "the highest mode");
   EXPECT_EQ(choose_step(above(0.99 * just), splitting()).scaled, 0);
   expect_governed(above(1.01 * just), splitting(), beside_scaled / 200.0,
@@ -311,17 +311,29 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
   expect_governed(sticking, splitting(), beside_scaled / 200.0,
                   "modes up to 2.25 times the frequency of sticking contacts 200 rad/s");
   // a normal damper is a cause only where modes could be made heavier without it
-  for (const double times : {1.9, 40.0}) {
+  for (const auto& [times, rate] : {std::pair{1.9, 3200.0}, {2.5, 3200.0}, {3.0, 800.0}, {40.0, 3200.0}}) {
     Scene damped = above(times);
-    damped.contacts.front().support.normal.damping = 3200.0 * mass;
-    EXPECT_EQ(mentions(choose_step(damped, splitting()).reason, "a smaller normal_damping"), times > 2.0)
-        << choose_step(damped, splitting()).reason;
+    damped.contacts.front().support.normal.damping = rate * mass;
+    const StepChoice choice = choose_step(damped, splitting());
+    EXPECT_EQ(choice.scaled, times > 10.0 ? 1 : 0) << times;
+    EXPECT_EQ(mentions(choice.reason, "a smaller normal_damping"), times > just)
+        << times << ": " << choice.reason;
+  }
+  // at a finer accuracy modes are made heavier from higher frequencies on; steps in which all are followed are no shorter for it
+  StepOptions fine = splitting();
+  fine.accuracy = 0.0025;
+  for (const auto& [times, step] : {std::pair{2.5, 0.5 * beside_scaled / 200.0},
+                                    {4.4, 0.5 * beside_scaled / 200.0},
+                                    {5.0, mode_share / 1000.0},
+                                    {6.0, 0.5 * beside_scaled / 200.0}}) {
+    EXPECT_NEAR(choose_step(above(times), fine).step / step, 1.0, 1e-4) << times;
+    EXPECT_EQ(choose_step(above(times), fine).scaled, times > 5.5 ? 1 : 0) << times;
   }
 }
 
 /// No automatic step is one that is warned about where it is given, whatever the accuracy.
 TEST(StepRule, TakesNoStepBesideModesThatIsWarnedAbout) {
-  for (const double times : {0.6, 0.9, 1.0, 1.5, 1.9, 2.2}) {
+  for (const double times : {0.6, 0.9, 1.0, 1.5, 1.9, 2.2, 2.5}) {
     const Scene scene =
         scene_with({Circle{0.1}, {8e4}, {}}, 1000.0, Vec3(0, mass * std::pow(times * 200.0, 2), 0));
     for (const double accuracy : {0.001, 0.01, 0.02, 0.5}) {

@@ -103,9 +103,9 @@ constexpr StepBound structure_at_contacts{0.9, 0.9}, contact_beside_structure{1.
 constexpr StepBound contact_interval{1.0, 1.0};
 /// Modes from so many times w_c and w_t on are made heavier at an accuracy of 0.01 (modes/mass_scaling.hpp); a step is short enough to follow those below.
 constexpr double scaled_above = 2.25;
-/// By how much they have to lengthen the step: those just above vibrate at the harmonics of impacts, and the work of contacts that slip by little changes with their frequency
-/// (one of 2.7 w_t at 2.25 w_t: by 6 %, with a quarter of the tangential damper 15 %).
-constexpr double scaling_pays = 1.25;
+/// No mode is made heavier where that lengthens the longest step in which splitting follows all modes by less than this factor: those just above vibrate at the harmonics of impacts,
+/// and the work of contacts that slip by little changes with their frequency (a highest mode of 2.7 w_t at 2.25 w_t: by 6 %, with a quarter of the tangential damper 15 %).
+constexpr double least_gain_of_scaling = 1.25;
 /// r_n h up to which modes are made heavier: the force of an impact that a damper stops within the step begins with a jump, which moves all modes.
 constexpr double scaled_up_to_damper = 3.0;
 /// A step over the shortest interval of a table that is no record, and w_c h (w_t h) up to which it may be the whole interval: where values change by their size from
