@@ -157,7 +157,7 @@ signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, doub
     const double resonance = pi * frequency * distance / (2.0 * ratio);
     const double largest = amplitude * std::sqrt(3.0 / (1.0 + resonance));
     signals::Table out;
-    for (double time = 0.0; time < most_periods / about; time += distance * draw.uniform(0.3, 1.7)) {
+    for (double time = 0.0; time < 2.0 * most_periods / about; time += distance * draw.uniform(0.3, 1.7)) {
       out.time.push_back(time);
       out.value.push_back(largest * draw.uniform(-1.0, 1.0));
     }

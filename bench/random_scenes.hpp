@@ -72,13 +72,14 @@ struct Place {
 /// Of one node. @param gap  m   @param overlap  m: how deep a pressed node is in it   @param tube  with the shapes of supports of tubes
 [[nodiscard]] Place draw_place(Draw& draw, double gap, double overlap, bool tube);
 
-/// Periods of the lowest mode (tubes: of a span) that a scene can last: its tables have rows until then.
+/// Periods of the lowest mode (tubes: of a span) that a scene can last.
 inline constexpr double most_periods = 4000.0;
 
 /// A load per unit of stiffness, m: harmonic, a table or noise in a band, such that an oscillator of a frequency (Hz) and damping ratio
-/// moves by some `amplitude` (rms, m). `about`: the frequency (Hz) about which it is, that of the scene's period.
+/// moves by some `amplitude` (rms, m). `about`: the frequency (Hz) about which it is, at most twice that of the scene's period.
 [[nodiscard]] signals::TimeFunction draw_load(Draw& draw, double frequency, double ratio, double about,
                                               double amplitude);
+/// In descriptions: h, r, t or c.
 [[nodiscard]] char letter_of(const signals::TimeFunction& load);
 
 /// Of a mass, of one tube or of two (random_tubes.cpp).

@@ -52,7 +52,7 @@ Matrix5 exponential(Matrix5 a) {
   return sum;
 }
 
-bool is_known(const signals::TimeFunction& function) {
+bool is_supported(const signals::TimeFunction& function) {
   return std::holds_alternative<signals::Random>(function) ||
          std::holds_alternative<signals::Harmonic>(function) ||
          std::holds_alternative<signals::Constant>(function) ||
@@ -87,10 +87,13 @@ ReferenceFlow::ReferenceFlow(const transient::Scene& scene, double step)
     a->assign(n_, 0.0);
   double fastest = 0.0;
   for (const vibration::Load& load : scene.loads) {
-    if (!is_known(load.function))
+    if (!is_supported(load.function))
       throw core::Error("the reference solution takes constant, harmonic and random loads and tables only");
-    if (const auto* table = std::get_if<signals::Table>(&load.function))
+    if (const auto* table = std::get_if<signals::Table>(&load.function)) {
+      if (std::adjacent_find(table->time.begin(), table->time.end()) != table->time.end())
+        throw core::Error("the reference solution takes no tables with jumps");
       rows_.insert(rows_.end(), table->time.begin(), table->time.end());
+    }
     signals_.emplace_back(load.function, scene.duration);
     fastest = std::max(fastest, two_pi * signals::highest_frequency(load.function));
     auto& shape = shapes_.emplace_back();
@@ -159,12 +162,13 @@ void ReferenceFlow::load_at(double time, std::vector<double>& force) const {
 }
 
 std::int64_t ReferenceFlow::steps_to_row() {
-  const double time = (static_cast<double>(unit_) + 1e-6) * h_;
+  constexpr double round_off = 1e-6; // of a step: a row that is so near is at its end
+  const double time = static_cast<double>(unit_) * h_ + round_off * h_;
   while (row_ < rows_.size() && rows_[row_] <= time)
     ++row_;
   if (row_ == rows_.size())
     return std::numeric_limits<std::int64_t>::max();
-  return static_cast<std::int64_t>((rows_[row_] - time) / h_ + 2e-6);
+  return static_cast<std::int64_t>((rows_[row_] - time) / h_ + 2.0 * round_off);
 }
 
 /// The line on which the loads are for the next steps, `line_steps_` or those to the next row, at the middle of the first.

@@ -14,7 +14,7 @@ namespace fretwork::bench {
 
 class ReferenceFlow {
 public:
-  /// @param step  s   @throws core::Error for loads other than constant, harmonic and random ones and tables
+  /// @param step  s   @throws core::Error for loads other than constant, harmonic and random ones and tables without jumps
   ReferenceFlow(const transient::Scene& scene, double step);
 
   std::vector<double> q, v;

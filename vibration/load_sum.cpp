@@ -118,7 +118,6 @@ void LoadSum::in_step(double start, double end, double* load0, double* load1, do
   add_sampled(end, load1);
 }
 
-/// Of all signals, by a value for each.
 void LoadSum::sum(const kernels::Array& values, double* force) const {
   if (signals_.empty())
     std::fill_n(force, padded_modes_, 0.0);

@@ -41,6 +41,7 @@ private:
   /// The force at a time by the values of the signals, those that are not random as value(k) has them.
   template <class Value> void combine(double time, const Value& value, double* force);
   [[nodiscard]] signals::InStep in_step(std::size_t signal, double start, double end) const;
+  /// Of all signals, by a value for each.
   void sum(const kernels::Array& values, double* force) const;
   /// Adds the sampled loads at a time.
   void add_sampled(double time, double* force);
