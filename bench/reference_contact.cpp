@@ -21,7 +21,7 @@ Vec2 solve(const Sym2& a, double s, Vec2 b) {
   return {(tt * b.x - xt * b.t) / det, (xx * b.t - xt * b.x) / det};
 }
 
-/// Perfect plasticity: tan(a/2) of the angle between a spring at its bound and what drives it falls as exp(-drive/bound).
+/// Perfect plasticity, by another formula than that of contact/friction_interval.cpp: tan(a/2) of the angle between a spring at its bound and what drives it falls as exp(-drive/bound).
 Vec2 turned(Vec2 spring, Vec2 drive, double bound) {
   const double length = norm(drive), cross = spring.x * drive.t - spring.t * drive.x;
   if (!(length > 0.0 && bound > 0.0))
@@ -94,7 +94,8 @@ ReferenceContact::Friction ReferenceContact::friction(double normal, Vec2 free, 
   if (!(law.damping > 0.0)) {
     if (norm(loaded_) <= bound)
       return {loaded_, loaded_, false};
-    const Vec2 force = slides_ ? turned(spring_, loaded_ - spring_, slip) : scaled_to(loaded_, slip);
+    const Vec2 force = slides_ && dot(loaded_, spring_) > 0.0 ? turned(spring_, loaded_ - spring_, slip)
+                                                              : scaled_to(loaded_, slip);
     return {force, force, true};
   }
   // F = g (base - C_T v) in stick, v = free + response F

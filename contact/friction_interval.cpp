@@ -66,11 +66,29 @@ Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   return unit(force_of_length(length, plus(1.0, s * a), b));
 }
 
-/// Direction after a turn towards `to`: e' = to - (to . e) e over an angle `a`, which a boost along `to` by the rapidity a gives.
-Vec2 turned(Vec2 e, Vec2 to, double a) {
-  const double t = std::tanh(0.5 * a), c = dot(e, to);
-  return unit((1.0 - t * t) * e + (2.0 * t * (1.0 + t * c)) * to);
-}
+/// A unit vector e that turns towards another, e' = to - (to . e) e: the tangent of half of the angle between both falls as e^-a over a length a.
+class Turning {
+public:
+  Turning(Vec2 e, Vec2 to)
+      : to_(to), across_{-to.t, to.x}, tangent_(std::tan(0.5 * std::atan2(dot(e, across_), dot(e, to)))) {}
+  [[nodiscard]] Vec2 after(double a) const {
+    const double t = tangent_ * std::exp(-a);
+    return (1.0 / (1.0 + t * t)) * ((1.0 - t * t) * to_ + 2.0 * t * across_);
+  }
+  /// Over the length a; shorter than 1 where it turns.
+  [[nodiscard]] Vec2 mean(double a) const {
+    if (!(a > 0.0))
+      return after(0.0);
+    const double end = tangent_ * std::exp(-a),
+                 turned = 2.0 * std::atan(-tangent_ * std::expm1(-a) / (1.0 + tangent_ * end)),
+                 along = 1.0 + (std::log1p(end * end) - std::log1p(tangent_ * tangent_)) / a;
+    return along * to_ + (turned / a) * across_;
+  }
+
+private:
+  Vec2 to_, across_;
+  double tangent_; ///< of half of the angle
+};
 
 StickTable stick_of(const FrictionLaw& law, double mobility, double length) {
   StickTable t;
@@ -92,7 +110,7 @@ SlipTable slip_of(const FrictionLaw& law, double length) {
                  : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
   t.gradient = t.share * law.stiffness + c;
   t.rate = c;
-  t.excess = r < no_damper ? -std::expm1(-r * t.share) / (r * t.share) : 0.0;
+  t.mean_decay = r < no_damper ? -std::expm1(-r * t.share) / (r * t.share) : 0.0;
   return t;
 }
 
@@ -282,41 +300,58 @@ private:
   [[nodiscard]] double settled_speed(V along, V velocity, double rate) const {
     return -dot(velocity, along) - law_.mu_dynamic * rate / law_.stiffness;
   }
-  /// With the directions of the force at the start and at the share s.
-  void move_slipping(const SlipTable& t, V before, V goal, V free, Piece& p) const {
+  /// The direction of the force in a piece: at the share s, and its mean, which is shorter than 1 where it turns.
+  struct Directions {
+    V at_share, mean;
+  };
+  /// Force and displacement of a piece.
+  void push_slipping(const SlipTable& t, V before, const Directions& force, V free, Piece& p) const {
     const double mu = law_.mu_dynamic;
-    const V turn = (1.0 / t.share) * (goal - before);
-    p.along = unit(before + turn);
+    p.along = unit(before + (1.0 / t.share) * (force.at_share - before));
     p.normal = normal_after(t.length);
-    p.force = mu * mean_normal(t.length, p.normal) * unit(before + 0.5 * turn);
+    p.force = mu * mean_normal(t.length, p.normal) * force.mean;
     p.growth = mu * (p.normal * p.along - normal_ * before);
     p.by = free + t.half * (path_.mobility * V(p.force - (1.0 / 6.0) * p.growth)) +
            fourth_of(t.length) * (path_.compliance * p.growth);
   }
-  /// That at the share s, of a displacement.
-  [[nodiscard]] Vec2 turned_by(const SlipTable& t, Vec2 by, double bound) const {
-    const Vec2 trial = out_.spring - t.rate * by, start = unit(trial), to = unit(-1.0 * by);
-    const double least = 0.5 * (law_.mu_dynamic * normal_ + bound),
-                 settled = least + t.rate * norm(by) * std::max(0.0, dot(start, to));
-    const double length = settled + (norm(trial) - settled) * t.excess;
-    return turned(start, to, t.share * law_.stiffness * norm(by) / length);
+  /// By radial return, which is implicit.
+  [[nodiscard]] Directions returned(const SlipTable& t, V before, V free, double bound) const {
+    const Vec2 at = direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound);
+    return dot(at, before) < turned_round ? Directions{before, before}
+                                          : Directions{at, unit(before + (0.5 / t.share) * (at - before))};
+  }
+  /// N: 1/N has the mean 1/n until a time, by Radau's rule, which has the start among its places and not the end. A spring of a touch has no direction yet: n = 0.
+  [[nodiscard]] double turning_normal(double until) const {
+    const double later = normal_after(2.0 / 3.0 * until), sum = later + 3.0 * normal_;
+    return sum > 0.0 ? 4.0 * normal_ * later / sum : 0.0;
+  }
+  /// As the piece moves by a displacement. The slider does not move against its force: |P| goes to mu_d N or more.
+  [[nodiscard]] Directions turned(const SlipTable& t, V before, V by) const {
+    const double moved = norm(by);
+    if (!(moved > 0.0))
+      return {before, before};
+    const Vec2 trial = out_.spring - t.rate * by, to = (-1.0 / moved) * by,
+               start = norm(trial) > 0.0 ? unit(trial) : to;
+    const double goes_to =
+        law_.mu_dynamic * turning_normal(t.share * t.length) + t.rate * moved * std::max(0.0, dot(start, to));
+    const double length = goes_to + (norm(trial) - goes_to) * t.mean_decay;
+    const Turning turning(start, to);
+    const double a = law_.stiffness * moved / length;
+    const Vec2 at = turning.after(t.share * a);
+    return dot(at, before) < turned_round ? Directions{before, before} : Directions{at, turning.mean(a)};
   }
   [[nodiscard]] Piece slipping(const SlipTable& t, V before) const {
     Piece p;
     const double bound = law_.mu_dynamic * (normal_after(t.share * t.length) - 6.0 * bow(t) * t.spread);
     const V free = free_displacement(t.length);
-    V goal = before; // of F_s
+    Directions force{before, before};
     if constexpr (std::is_same_v<V, Vec2>) {
-      const auto ahead = [&](Vec2 direction) {
-        return dot(direction, before) < turned_round ? before : direction;
-      };
-      goal = ahead(direction(t.gradient * t.half, path_.mobility, out_.spring - t.gradient * free, bound));
-      move_slipping(t, before, goal, free, p);
-      goal = ahead(turned_by(t, p.by, bound));
+      push_slipping(t, before, returned(t, before, free, bound), free, p);
+      force = turned(t, before, p.by);
     }
-    move_slipping(t, before, goal, free, p);
+    push_slipping(t, before, force, free, p);
     p.velocity = velocity_after(t.length, p.force);
-    p.spring = out_.spring + t.relaxed * (bound * goal - out_.spring);
+    p.spring = out_.spring + t.relaxed * (bound * force.at_share - out_.spring);
     return p;
   }
   void slip(bool last) {
@@ -360,7 +395,9 @@ private:
     const double lag = law_.damping / (law_.stiffness * t.length); // 1/r
     const double decaying =
         dot(out_.spring, before) - mu * normal_ + lag * (growth + 6.0 * b + 12.0 * lag * b);
-    const double work = -dot(p.force, V(p.by + (1.0 / law_.stiffness) * (p.spring - out_.spring))) -
+    // A force that turns at one length does no work on the spring: it is between the forces at both ends.
+    const V between = norm(p.force) * unit(V(before + p.along));
+    const double work = -dot(p.force, p.by) - dot(between, V(p.spring - out_.spring)) / law_.stiffness -
                         growth * (t.length / 12.0 * (dot(p.velocity, p.along) - dot(out_.velocity, before)) -
                                   dot(path_.lift_under(p.force, p.growth, fourth_of(t.length)), before) +
                                   (t.relaxed * (t.share - 0.5) * decaying - b) / law_.stiffness);

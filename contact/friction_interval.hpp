@@ -12,8 +12,8 @@
 /// to none (s = 1). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper -v - mu_d N'/K_T along F.
 /// In a plane F is along e, that of P = T - C_T v, and turns towards g = -v/|v|:
 ///     e' = (K_T |v|/|P|) (g - (g . e) e),    |P|' = -(K_T/C_T) (|P| - mu_d N - C_T |v| g . e)
-/// At a constant velocity tan(a/2) of the angle a between e and g falls as exp(-K_T integral of |v|/|P|), the tractrix where there is no damper. The displacement
-/// of the piece is found with F_s along T - (s K_T + C_T/tau) dx (radial return), which is implicit; e then by it.
+/// At a constant velocity tan(a/2) of the angle a between e and g falls as exp(-K_T integral of |v|/|P|), a tractrix without damper, and the mean of e is known.
+/// The displacement of the piece is found with F_s along T - (s K_T + C_T/tau) dx (radial return), which is implicit; directions then follow from it.
 /// Stick is of order 4, as the normal motion; where a contact begins and ends to slide, and how its direction turns, is found to order 2.
 #pragma once
 #include "contact/friction_law.hpp"
@@ -45,14 +45,14 @@ struct StickTable {
 };
 /// Likewise of one in which it slips.
 struct SlipTable {
-  double length;   ///< tau, s
-  double half;     ///< tau^2/2, s2
-  double share;    ///< s
-  double spread;   ///< variance of the share of the piece that F_s stands for
-  double relaxed;  ///< 1 - e^-r
-  double gradient; ///< s K_T + C_T/tau, N/m
-  double rate;     ///< C_T/tau, N/m
-  double excess;   ///< mean of e^(-r t/tau) until the share s
+  double length;     ///< tau, s
+  double half;       ///< tau^2/2, s2
+  double share;      ///< s
+  double spread;     ///< variance of the share of the piece that F_s stands for
+  double relaxed;    ///< 1 - e^-r
+  double gradient;   ///< s K_T + C_T/tau, N/m
+  double rate;       ///< C_T/tau, N/m
+  double mean_decay; ///< mean of e^(-r t/tau) until the share s
 };
 struct PieceTables {
   StickTable stick;

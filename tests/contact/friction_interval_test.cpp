@@ -46,45 +46,92 @@ TEST(FrictionInterval, TurnsASpringWithoutDamperAsPerfectPlasticity) {
     EXPECT_NEAR(std::acos(-spring.t / bound), angle, 1e-12) << intervals;
     // what the spring does not keep: bound times the integral of speed cos(a)
     const double spent = bound * bound / law.stiffness * std::log(1.0 / std::sin(angle));
-    EXPECT_NEAR(work / spent, 1.0, 0.05 / (intervals * intervals)) << intervals;
+    EXPECT_NEAR(work / spent, 1.0, 1e-11) << intervals;
   }
 }
 
 TEST(FrictionInterval, TurnsItsDirectionOfSlipToOrderTwo) {
-  // a velocity that turns, a bound that grows, a mobility, from no damper to a slow one
+  // under a force that turns, from no damper to a slow one, and normal forces that grow, come from 0, and bow
   const Sym2 mobility{0.4, 0.1, 0.7};
-  constexpr double duration = 4.0, rate = 0.8;
+  constexpr double duration = 4.0, push = 1.5, rate = 0.8;
+  constexpr double bound_of_error = 0.06, order = 1.6,
+                   bound_of_work = 0.02; // in 16 intervals, of values about 1
+  const auto at = [](double t) { return push * Vec2{std::cos(rate * t), std::sin(rate * t)}; };
+  const ParabolicForce normals[] = {line(1.0, 1.4), line(0.0, 2.0), {0.6, 1.4, 1.6}};
   struct Course {
     Vec2 spring, velocity;
     double work;
   };
-  for (const double damping : {0.0, 1e-4, 0.05, 0.5, 5.0}) {
-    const FrictionLaw turning{2.0, damping, 0.5, 0.5};
-    const auto after = [&](int intervals) {
-      const double dt = duration / intervals;
-      const PieceTables table = piece_tables(turning, 0.7, dt);
-      Course out{{0.3, -0.4}, {-0.5, 1.5}, 0.0};
-      for (int i = 0; i < intervals; ++i) {
-        const double t0 = i * dt, t1 = t0 + dt;
-        // a(t) = 1.5 (cos(rate t), sin(rate t)), a line over the interval
-        const Vec2 a0{1.5 * std::cos(rate * t0), 1.5 * std::sin(rate * t0)},
-            a1{1.5 * std::cos(rate * t1), 1.5 * std::sin(rate * t1)};
-        const auto f = friction_over_interval(turning, table, 0.7, out.spring, true, dt,
-                                              line(1.0 + 0.1 * t0, 1.0 + 0.1 * t1),
-                                              {out.velocity, a0, (1.0 / dt) * (a1 - a0), mobility});
-        EXPECT_NEAR(f.sliding_time, dt, round_off) << damping;
-        out = {f.spring, f.velocity, out.work + f.slider_work};
+  for (const ParabolicForce& normal : normals)
+    for (const double damping : {0.0, 1e-4, 0.05, 0.5, 5.0}) {
+      SCOPED_TRACE(testing::Message() << normal.first << " N, C_T " << damping);
+      const FrictionLaw turning{2.0, damping, 0.5, 0.5};
+      const auto after = [&](int intervals) {
+        const double dt = duration / intervals;
+        const PieceTables table = piece_tables(turning, 0.7, dt);
+        Course out{0.5 * normal.first * Vec2{0.6, -0.8}, {-0.5, 1.5}, 0.0};
+        for (int i = 0; i < intervals; ++i) {
+          const double from = static_cast<double>(i) / intervals, to = (i + 1.0) / intervals;
+          const double first = normal.at(from), last = normal.at(to);
+          const double mean = (first + 4.0 * normal.at(0.5 * (from + to)) + last) / 6.0;
+          const Vec2 a0 = at(i * dt), a1 = at((i + 1) * dt); // a line over the interval
+          const auto f =
+              friction_over_interval(turning, table, 0.7, out.spring, true, dt, {first, last, mean},
+                                     {out.velocity, a0, (1.0 / dt) * (a1 - a0), mobility});
+          EXPECT_NEAR(f.sliding_time, dt, round_off);
+          out = {f.spring, f.velocity, out.work + f.slider_work};
+        }
+        return out;
+      };
+      const Course exact = after(4096);
+      double spring0 = 0.0, velocity0 = 0.0;
+      for (const int intervals : {16, 32, 64, 128}) {
+        const Course c = after(intervals);
+        const double spring = norm(c.spring - exact.spring), velocity = norm(c.velocity - exact.velocity);
+        if (intervals == 16) {
+          EXPECT_LT(spring, bound_of_error);
+          EXPECT_LT(velocity, bound_of_error);
+          EXPECT_NEAR(c.work / exact.work, 1.0, bound_of_work);
+          spring0 = spring;
+          velocity0 = velocity;
+        } else if (intervals == 128) {
+          EXPECT_GT(std::log2(spring0 / spring) / 3.0, order);
+          EXPECT_GT(std::log2(velocity0 / velocity) / 3.0, order);
+        }
       }
-      return out;
-    };
-    const Course exact = after(4096), coarse = after(16), fine = after(32);
-    const auto error = [&](const Course& c) {
-      return norm(c.spring - exact.spring) + norm(c.velocity - exact.velocity);
-    };
-    EXPECT_LT(error(coarse), 0.03) << damping;
-    EXPECT_GT(std::log2(error(coarse) / error(fine)), 1.6) << damping;
-    EXPECT_NEAR(coarse.work / exact.work, 1.0, 0.01) << damping;
+    }
+}
+
+TEST(FrictionInterval, OfAPlaneIsThatOfALineWhereItMovesAlongOne) {
+  tests::Uniform draw(11);
+  constexpr int draws = 20000;
+  constexpr double tolerance = 1e-9;
+  const Vec2 along{0.6, 0.8};
+  int slides = 0, differ = 0;
+  for (int i = 0; i < draws; ++i) {
+    const FrictionLaw any{draw.scale(0.1, 1000.0), i % 2 == 0 ? 0.0 : draw.scale(1e-3, 10.0), 0.5,
+                          draw(0.2, 0.5)};
+    const double dt = draw.scale(0.05, 2.0), first = draw(-0.3, 1.0), last = draw(-0.3, 1.0);
+    const ParabolicForce normal = line(std::max(0.0, first), std::max(0.0, last)); // from 0, to 0, and at 0
+    const double spring = draw(-0.5, 0.5) * normal.first, velocity = draw(-1.0, 1.0), push = draw(-2.0, 2.0),
+                 mobility = draw(0.0, 1.0);
+    const PieceTables table = piece_tables(any, mobility, dt);
+    const bool sliding = draw(0.0, 1.0) > 0.5;
+    const auto on_line =
+        friction_over_interval(any, table, mobility, spring, sliding, dt, normal,
+                               TangentialPath<double, double>{velocity, push, 0.0, mobility});
+    const auto in_plane = friction_over_interval(
+        any, table, mobility, spring * along, sliding, dt, normal,
+        TangentialPath<Vec2, Sym2>{velocity * along, push * along, {}, {mobility, 0.0, mobility}});
+    slides += on_line.sliding_time > 0.0 ? 1 : 0;
+    ASSERT_TRUE(std::isfinite(norm(in_plane.impulse)) && std::isfinite(in_plane.slider_work)) << i;
+    if (norm(in_plane.spring - on_line.spring * along) > tolerance ||
+        norm(in_plane.impulse - on_line.impulse * along) > tolerance ||
+        std::abs(in_plane.slider_work - on_line.slider_work) > tolerance)
+      ++differ; // where a slip that turns round ends in a piece, or there is no normal force at all
   }
+  EXPECT_GT(slides, draws / 4);
+  EXPECT_LT(differ, draws / 200);
 }
 
 TEST(FrictionInterval, StaysWithinItsBoundOnTheMean) {
