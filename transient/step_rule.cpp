@@ -184,8 +184,8 @@ double least_steps(const Scene& scene) {
 
 /// The step of splitting with modes made heavier. Beside Hunt and Crossley's dampers none is, at no step. A normal damper is a cause where modes would be made
 /// heavier without it.
-/// @param followed  s, the longest step in which all modes are followed
-Limit limit_of_scaled_modes(const StepChoice& c, double followed, double fineness) {
+/// @param all  the longest step in which all modes are followed
+Limit limit_of_scaled_modes(const StepChoice& c, const Limit& all, double fineness) {
   if (c.hunt_crossley)
     return {0.0, ""};
   const bool sticks = c.stick_frequency > c.contact_frequency;
@@ -196,7 +196,9 @@ Limit limit_of_scaled_modes(const StepChoice& c, double followed, double finenes
   const Limit damped{(1.0 - time_round_off) * scaled_up_to_damper / c.normal_damper_rate,
                      "modes that are made heavier beside normal dampers",
                      "; a smaller normal_damping makes the step longer"};
-  return damped.step < slower.step && slower.step >= least_gain_of_scaling * followed ? damped : slower;
+  if (damped.step >= slower.step || slower.step < least_gain_of_scaling * all.step)
+    return slower;
+  return damped.step > all.step ? damped : Limit{all.step, all.reason, damped.cure};
 }
 
 /// The longest step that the terms allow, but for whole steps that cover the duration.
@@ -218,13 +220,13 @@ void choose_automatic(StepChoice& c, const Scene& scene, double asked) {
     limit(one);
   double followed = 0.0; // w h of the fastest mode of splitting; 0: all are followed
   if (c.scheme == SchemeKind::splitting && contacts && c.highest_mode > 0.0) {
-    const double most = limits_of(c.scheme).highest_mode.largest, all = most / c.highest_mode;
-    const Limit modes = limit_of(mode_term(c, contacts), fineness),
+    const double most = limits_of(c.scheme).highest_mode.largest;
+    const Limit modes = limit_of(mode_term(c, contacts), fineness), all{most / c.highest_mode, modes.reason},
                 scaled = limit_of_scaled_modes(c, all, fineness);
     if (scaled.step < c.step)
       limit(scaled.step > modes.step ? scaled : Limit{modes.step, modes.reason, scaled.cure});
-    if (all < c.step && c.step < least_gain_of_scaling * all)
-      limit({all, modes.reason, scaled.cure});
+    if (all.step < c.step && c.step < least_gain_of_scaling * all.step)
+      limit({all.step, all.reason, scaled.cure});
     if (modes.step < c.step && may_scale(scene, most / c.step, accuracy))
       followed = most;
     else
