@@ -18,7 +18,7 @@ constexpr double round_off = 1e-9;
 /// Share of a usual interval within which the spring is to be at its bound again for the contact to slide on. Larger: contacts that have stopped slide on
 /// for an interval. 0: contacts that slide stick, up to mu_s N.
 constexpr double soon = 0.5;
-/// Cosine of the turn of a slip from which it is a stop and a start the other way: the slider stands in between.
+/// Cosine of the turn of a slip, and of its force from what drives it, from which it is a stop and a start the other way: the slider stands in between.
 constexpr double turned_round = -0.9;
 /// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
 constexpr double no_damper = 1e8, slow_damper = 1e-2;
@@ -332,6 +332,8 @@ private:
       return {before, before};
     const Vec2 trial = out_.spring - t.rate * by, to = (-1.0 / moved) * by,
                start = norm(trial) > 0.0 ? unit(trial) : to;
+    if (dot(start, to) < turned_round)
+      return {before, before};
     const double goes_to =
         law_.mu_dynamic * turning_normal(t.share * t.length) + t.rate * moved * std::max(0.0, dot(start, to));
     const double length = goes_to + (norm(trial) - goes_to) * t.mean_decay;

@@ -329,6 +329,9 @@ TEST(StepRule, FollowsModesNotFarAboveTheContacts) {
     EXPECT_NEAR(choose_step(above(times), fine).step / step, 1.0, 1e-4) << times;
     EXPECT_EQ(choose_step(above(times), fine).scaled, times > 5.5 ? 1 : 0) << times;
   }
+  Scene damped = above(6.0); // a damper shortens no step in which none would be made heavier
+  damped.contacts.front().support.normal.damping = 2500.0 * mass;
+  EXPECT_NEAR(choose_step(damped, fine).step * 1200.0 / mode_share, 1.0, 1e-4);
 }
 
 /// No automatic step is one that is warned about where it is given, whatever the accuracy.
