@@ -69,8 +69,8 @@ Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
 /// A unit vector e that turns towards another, e' = to - (to . e) e: the tangent of half of the angle between both falls as e^-a over a length a.
 class Turning {
 public:
-  Turning(Vec2 e, Vec2 to)
-      : to_(to), across_{-to.t, to.x}, tangent_(std::tan(0.5 * std::atan2(dot(e, across_), dot(e, to)))) {}
+  /// @param e  not opposite to `to`
+  Turning(Vec2 e, Vec2 to) : to_(to), across_{-to.t, to.x}, tangent_(dot(e, across_) / (1.0 + dot(e, to))) {}
   [[nodiscard]] Vec2 after(double a) const {
     const double t = tangent_ * std::exp(-a);
     return (1.0 / (1.0 + t * t)) * ((1.0 - t * t) * to_ + 2.0 * t * across_);
@@ -79,9 +79,9 @@ public:
   [[nodiscard]] Vec2 mean(double a) const {
     if (!(a > 0.0))
       return after(0.0);
-    const double end = tangent_ * std::exp(-a),
-                 turned = 2.0 * std::atan(-tangent_ * std::expm1(-a) / (1.0 + tangent_ * end)),
-                 along = 1.0 + (std::log1p(end * end) - std::log1p(tangent_ * tangent_)) / a;
+    const double fall = tangent_ * std::expm1(-a), end = tangent_ + fall,
+                 turned = 2.0 * std::atan(-fall / (1.0 + tangent_ * end)),
+                 along = 1.0 + std::log1p(fall * (end + tangent_) / (1.0 + tangent_ * tangent_)) / a;
     return along * to_ + (turned / a) * across_;
   }
 

@@ -13,7 +13,7 @@
 /// that even finest_for_normal_dampers does not resolve is warned about, also with the automatic step (step_warnings.hpp).
 ///
 /// With contacts splitting follows modes to highest_mode/h. In a step of highest_mode/(scaled_above max(w_c, w_t)) faster ones are made heavier
-/// (mass_scaling.hpp); where they may not be, or r_n h is above scaled_up_to_damper, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
+/// (mass_scaling.hpp), but none in a step below least_gain_of_scaling times highest_mode/w_max, the longest in which all are followed; where they may not be, or r_n h is above scaled_up_to_damper, the step is shorter. Without contacts exact flows have mode_without_contacts/w_max.
 ///
 /// Hunt and Crossley's damper c(p) = K_N d p grows with a penetration that is not known beforehand. In an impact at the speed v w_c bounds its rate:
 /// p <= min(1, sqrt(2/x)) v/w_c with x = d v (spring alone; damper alone), so that h c W <= 0.5 min(x, sqrt(2 x)).
