@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace fretwork::bench {
 
@@ -25,10 +26,11 @@ enum class SceneKind { mass, tube, pair, mixed };
 
 struct RandomScene {
   SceneKind kind;
-  std::string name, description; ///< kind and number; what it is, one line
-  transient::Scene scene;        ///< its duration is 100 periods; bench_accuracy sets it
-  double period = 0.0;           ///< s, of the lowest mode (tubes: of a span)
-  double gap = 0.0;              ///< m, the scale of the clearances
+  std::string name, description;               ///< kind and number; what it is, one line
+  transient::Scene scene;                      ///< its duration is 100 periods; bench_accuracy sets it
+  double period = 0.0;                         ///< s, of the lowest mode (tubes: of a span)
+  double gap = 0.0;                            ///< m, the scale of the clearances
+  std::vector<Eigen::Index> first_modes = {0}; ///< of each structure, three at least
 };
 [[nodiscard]] RandomScene random_scene(SceneKind kind, std::uint64_t seed, int number);
 

@@ -200,6 +200,7 @@ RandomScene random_pair(Draw& draw) {
   add_loads(draw, out.scene, a, ratio, amplitude, loads);
   add_loads(draw, out.scene, b, ratio, amplitude, loads);
   finish(out, a, gap);
+  out.first_modes = {a.first, b.first};
   out.description = fmt::format(
       "{} + {} modes, {} contacts: {}, w_c/w_s {:.0f}, {}, loads {}, {:.3g} Hz, zeta {:.2g}, gap {:.2g} mm",
       a.modes, b.modes, out.scene.contacts.size(), places, frequency_ratio, described(laws.draw), loads,
