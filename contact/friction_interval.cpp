@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/friction_interval.hpp"
+#include "contact/turning_slip.hpp"
 #include <algorithm>
 #include <type_traits>
 
@@ -20,8 +21,6 @@ constexpr double round_off = 1e-9;
 constexpr double soon = 0.5;
 /// Cosine of the turn of a slip, and of its force from what drives it, from which it is a stop and a start the other way: the slider stands in between.
 constexpr double turned_round = -0.9;
-/// K_T tau/C_T above which the damper is none, and below which e^-r is a series.
-constexpr double no_damper = 1e8, slow_damper = 1e-2;
 
 double unit(double a) { return std::copysign(1.0, a); }
 Vec2 unit(Vec2 a) {
@@ -34,84 +33,11 @@ Vec2 solve(const Sym2& m, Vec2 b) {
   const double det = m.xx * m.tt - m.xt * m.xt;
   return {(m.tt * b.x - m.xt * b.t) / det, (m.xx * b.t - m.xt * b.x) / det};
 }
-/// LinearTerms along the directions of a plane.
-template <class M> struct Terms { M stiffness, damping, end; };
-/// So much of the mobility that a table is of that its c' holds.
-constexpr double same_mobility = 0.01;
-Terms<double> terms_of(const FrictionLaw& law, const StickTable& t, double table_mobility, double mobility) {
-  const double z = law.damping * mobility * t.length;
-  const double growing = std::abs(mobility - table_mobility) <= same_mobility * table_mobility
-                             ? t.growing
-                             : growing_damping(law.damping, z);
-  const LinearTerms of = linear_terms(law.stiffness, mobility, t.half / 6.0, z, growing);
-  return {of.stiffness, of.damping, of.end};
-}
-/// Function of a tensor by its values at the eigenvalues.
-Sym2 with_values(const Sym2& a, double middle, double radius, double low, double high) {
-  const double mean = 0.5 * (low + high), slope = radius > 0.0 ? 0.5 * (high - low) / radius : 0.0;
-  return {mean + slope * (a.xx - middle), slope * a.xt, mean + slope * (a.tt - middle)};
-}
-Terms<Sym2> terms_of(const FrictionLaw& law, const StickTable& t, double table_mobility, const Sym2& a) {
-  const double middle = 0.5 * (a.xx + a.tt), radius = std::hypot(0.5 * (a.xx - a.tt), a.xt);
-  const Terms<double> low = terms_of(law, t, table_mobility, middle - radius),
-                      high = terms_of(law, t, table_mobility, middle + radius);
-  return {with_values(a, middle, radius, low.stiffness, high.stiffness),
-          with_values(a, middle, radius, low.damping, high.damping),
-          with_values(a, middle, radius, low.end, high.end)};
-}
 /// Direction of the f of a length with (1 + s A + l) f = b, l >= 0.
 Vec2 direction(double s, const Sym2& a, Vec2 b, double length) {
   if (!(length > 0.0) || (a.xt == 0.0 && a.xx == a.tt))
     return unit(b);
   return unit(force_of_length(length, plus(1.0, s * a), b));
-}
-
-/// A unit vector e that turns towards another, e' = to - (to . e) e: the tangent of half of the angle between both falls as e^-a over a length a.
-class Turning {
-public:
-  /// @param e  not opposite to `to`
-  Turning(Vec2 e, Vec2 to) : to_(to), across_{-to.t, to.x}, tangent_(dot(e, across_) / (1.0 + dot(e, to))) {}
-  [[nodiscard]] Vec2 after(double a) const {
-    const double t = tangent_ * std::exp(-a);
-    return (1.0 / (1.0 + t * t)) * ((1.0 - t * t) * to_ + 2.0 * t * across_);
-  }
-  /// Over the length a; shorter than 1 where it turns.
-  [[nodiscard]] Vec2 mean(double a) const {
-    if (!(a > 0.0))
-      return after(0.0);
-    const double fall = tangent_ * std::expm1(-a), end = tangent_ + fall,
-                 turned = 2.0 * std::atan(-fall / (1.0 + tangent_ * end)),
-                 along = 1.0 + std::log1p(fall * (end + tangent_) / (1.0 + tangent_ * tangent_)) / a;
-    return along * to_ + (turned / a) * across_;
-  }
-
-private:
-  Vec2 to_, across_;
-  double tangent_; ///< of half of the angle
-};
-
-StickTable stick_of(const FrictionLaw& law, double mobility, double length) {
-  StickTable t;
-  t.length = length;
-  t.half = 0.5 * length * length;
-  t.growing = growing_damping(law.damping, law.damping * mobility * length);
-  t.rate = law.damping / length;
-  return t;
-}
-SlipTable slip_of(const FrictionLaw& law, double length) {
-  SlipTable t;
-  const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
-  t.length = length;
-  t.half = 0.5 * length * length;
-  t.relaxed = r < no_damper ? -std::expm1(-r) : 1.0;
-  t.share = r < slow_damper ? 0.5 + r / 12.0 : 1.0 / t.relaxed - (r < no_damper ? 1.0 / r : 0.0);
-  t.spread = r < slow_damper
-                 ? 1.0 / 12.0
-                 : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
-  t.gradient = t.share * law.stiffness + c;
-  t.rate = c;
-  t.mean_decay = r < no_damper ? -std::expm1(-r * t.share) / (r * t.share) : 0.0;
-  return t;
 }
 
 template <class V, class M> class Pieces {
@@ -141,10 +67,10 @@ public:
 
 private:
   [[nodiscard]] StickTable stick_table(double time) const {
-    return time == usual_.stick.length ? usual_.stick : stick_of(law_, mobility_, time);
+    return time == usual_.stick.length ? usual_.stick : contact::stick_table(law_, mobility_, time);
   }
   [[nodiscard]] SlipTable slip_table(double time) const {
-    return time == usual_.slip.length ? usual_.slip : slip_of(law_, time);
+    return time == usual_.slip.length ? usual_.slip : contact::slip_table(law_, time);
   }
   /// Of the force, and where there is none yet of what builds it up.
   [[nodiscard]] V heading() const {
@@ -214,8 +140,8 @@ private:
     return out_.velocity + time * (acceleration(time) + path_.mobility * force);
   }
 
-  void move_sticking(const StickTable& t, const Terms<M>& terms, const M& straight, const M& answer, V free,
-                     Piece& p) const {
+  void move_sticking(const StickTable& t, const StickTerms<M>& terms, const M& straight, const M& answer,
+                     V free, Piece& p) const {
     p.by = solve(straight, V(free + answer * (path_.mobility * p.force)));
     p.velocity = velocity_after(t.length, p.force);
     p.spring = out_.spring - law_.stiffness * p.by;
@@ -229,7 +155,7 @@ private:
   [[nodiscard]] Piece sticking(const StickTable& t) const {
     Piece p;
     const double fourth = fourth_of(t.length), twelfth = t.half / 6.0;
-    const Terms<M> terms = terms_of(law_, t, mobility_, path_.mobility);
+    const StickTerms<M> terms = stick_terms(law_, t, mobility_, path_.mobility);
     const M& k = terms.stiffness;
     const M compliance = fourth * path_.compliance,
             by_growth = twelfth * path_.mobility + (-1.0) * compliance,  // m/N
@@ -337,7 +263,7 @@ private:
     const double goes_to =
         law_.mu_dynamic * turning_normal(t.share * t.length) + t.rate * moved * std::max(0.0, dot(start, to));
     const double length = goes_to + (norm(trial) - goes_to) * t.mean_decay;
-    const Turning turning(start, to);
+    const TurningSlip turning(start, to);
     const double a = law_.stiffness * moved / length;
     const Vec2 at = turning.after(t.share * a);
     return dot(at, before) < turned_round ? Directions{before, before} : Directions{at, turning.mean(a)};
@@ -434,10 +360,6 @@ private:
 };
 
 } // namespace
-PieceTables piece_tables(const FrictionLaw& law, double mobility, double length) {
-  return {stick_of(law, mobility, length), slip_of(law, length)};
-}
-
 FrictionInterval<double> friction_over_interval(const FrictionLaw& law, const PieceTables& usual,
                                                 double mobility, double spring, bool sliding, double length,
                                                 const ParabolicForce& normal,

@@ -12,11 +12,11 @@
 /// to none (s = 1). The slider's speed against F is (|T - C_T v| - mu_d N)/C_T, without damper -v - mu_d N'/K_T along F.
 /// In a plane F is along e, that of P = T - C_T v, and turns towards g = -v/|v|:
 ///     e' = (K_T |v|/|P|) (g - (g . e) e),    |P|' = -(K_T/C_T) (|P| - mu_d N - C_T |v| g . e)
-/// At a constant velocity tan(a/2) of the angle a between e and g falls as exp(-K_T integral of |v|/|P|), a tractrix without damper, and the mean of e is known.
+/// At a constant velocity that is known in closed form (turning_slip.hpp), a tractrix without damper.
 /// The displacement of the piece is found with F_s along T - (s K_T + C_T/tau) dx (radial return), which is implicit; directions then follow from it.
 /// Stick is of order 4, as the normal motion; where a contact begins and ends to slide, and how its direction turns, is found to order 2.
 #pragma once
-#include "contact/friction_law.hpp"
+#include "contact/friction_tables.hpp"
 #include "contact/normal_interval.hpp"
 
 namespace fretwork::contact {
@@ -35,31 +35,6 @@ template <class V, class M> struct TangentialPath {
     return fourth * (lift + compliance * V(mean - 0.625 * growth));
   }
 };
-
-/// What the law needs of a piece of a given length in which the contact sticks.
-struct StickTable {
-  double length;  ///< tau, s
-  double half;    ///< tau^2/2, s2
-  double growing; ///< growing_damping, N s/m
-  double rate;    ///< C_T/tau, N/m
-};
-/// Likewise of one in which it slips.
-struct SlipTable {
-  double length;     ///< tau, s
-  double half;       ///< tau^2/2, s2
-  double share;      ///< s
-  double spread;     ///< variance of the share of the piece that F_s stands for
-  double relaxed;    ///< 1 - e^-r
-  double gradient;   ///< s K_T + C_T/tau, N/m
-  double rate;       ///< C_T/tau, N/m
-  double mean_decay; ///< mean of e^(-r t/tau) until the share s
-};
-struct PieceTables {
-  StickTable stick;
-  SlipTable slip;
-};
-/// @param mobility  1/kg, about the largest along a tangent
-[[nodiscard]] PieceTables piece_tables(const FrictionLaw& law, double mobility, double length);
 
 template <class V> struct FrictionInterval {
   V impulse{};               ///< N s
