@@ -111,7 +111,7 @@ void add_load(const TurbulentLoad& load, const modal::Basis& basis, const flow::
   }
 }
 
-/// Modes on which the band leaves no force; what that loses of a displacement is `share_above`.
+/// Modes at whose frequencies the band leaves nothing; what that loses of a displacement is `share_above`.
 void note_pinned_modes_above(const TurbulentLoad& load, const modal::Basis& basis,
                              const std::string& response, std::vector<std::string>& notes) {
   if (const Eigen::Index above = modes_above(load.band, basis);
@@ -119,7 +119,8 @@ void note_pinned_modes_above(const TurbulentLoad& load, const modal::Basis& basi
     notes.push_back(fmt::format(
         "response \"{}\": {} of {} modes, up to {:.4g} Hz, lie above the band of {}, which ends at {:.4g} "
         "Hz: "
-        "they get no force; share_above is what that loses, band of [[turbulence]] widens it",
+        "it has nothing at their frequencies; share_above is what that loses, band of [[turbulence]] widens "
+        "it",
         response, above, basis.true_modes(), basis.omega(basis.true_modes() - 1) / (2.0 * std::numbers::pi),
         load.name, load.band.high));
 }

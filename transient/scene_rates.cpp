@@ -107,10 +107,11 @@ std::array<bool, 3> normal_rows(const contact::Support& support) {
   return {false, y, z};
 }
 
-/// x_loc, and every direction across it that a tangent can take: all but the normal of a plane.
+/// Where friction acts along them: x_loc, and every direction across it that a tangent can take, all but the normal of a plane.
 std::array<bool, 3> tangent_rows(const contact::Support& support) {
   const auto [y, z] = contact::normal_directions(support.obstacle);
-  return {true, !y || (y && z), !z || (y && z)};
+  const contact::Vec2 along = support.friction.along;
+  return {along.x > 0.0, along.t > 0.0 && (!y || z), along.t > 0.0 && (!z || y)};
 }
 
 /// What a contact has along one direction by itself.

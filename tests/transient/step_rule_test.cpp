@@ -474,6 +474,22 @@ TEST(StepRule, LooksOnlyAlongTheDirectionsThatTheObstacleUses) {
   EXPECT_EQ(choose_step(scene, {}).stick_frequency, 0.0);
 }
 
+TEST(StepRule, LooksOnlyAlongTheDirectionsOfFriction) {
+  // a damper along x that would be fast across it, where the contact moves more easily
+  Scene scene = scene_with({PlanePair{0.1, PlaneAxis::y}, {8e4}, {2e4, 100.0, 0.3, 0.3}});
+  scene.contacts[0].b.row(0) *= 0.1;
+  scene.contacts[0].b.row(2) *= 3.0;
+  const double rate = 100.0 / mass;
+  const auto along = [&](double x, double t) {
+    scene.contacts[0].support.friction.along = {x, t};
+    return choose_step(scene, {});
+  };
+  EXPECT_NEAR(along(1.0, 1.0).damper_rate, 9.0 * rate, round_off * rate);
+  EXPECT_NEAR(along(0.0, 1.0).damper_rate, 9.0 * rate, round_off * rate);
+  EXPECT_NEAR(along(1.0, 0.0).damper_rate, 0.01 * rate, round_off * rate);
+  EXPECT_NEAR(along(1.0, 0.0).stick_frequency, 0.1 * 100.0, 1e-10);
+}
+
 TEST(StepRule, TakesSplittingForAFullDampingMatrixToo) {
   Scene scene = scene_with({Circle{0.1}, {8e4}, {}}, 1.0);
   EXPECT_EQ(choose_step(scene, {}).scheme, SchemeKind::splitting);

@@ -31,6 +31,16 @@ std::vector<char> close_pairs(const std::vector<ImpulseResponse>& responses, std
   return close;
 }
 
+/// The largest component by size of what a force of friction with these directions moves, of them all.
+double moved_by_friction(const Mobility& w, contact::Vec2 along) {
+  double out = 0.0;
+  for (int to = 0; to < 3; ++to)
+    for (int from = 0; from < 3; ++from)
+      if ((from == 2 ? along.x : along.t) > 0.0)
+        out = std::max(out, std::abs(w(to, from)));
+  return out;
+}
+
 } // namespace
 
 CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks blocks,
@@ -70,11 +80,12 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
       const auto size = blocks_.contacts[block].size();
       for (std::size_t from = 0; from < size; ++from) {
         const contact::Support& other = contacts.supports[blocks_.contacts[block][from]];
-        const double coupling = responses_[block][from * size + static_cast<std::size_t>(local)].w.largest();
+        const ImpulseResponse& response = responses_[block][from * size + static_cast<std::size_t>(local)];
+        const double coupling = response.w.largest();
         rates.normal += other.normal.damping * coupling;
         rates.by_penetration += other.normal.stiffness * other.normal.dissipation * coupling;
         if (other.friction.active())
-          rates.tangential += other.friction.damping * coupling;
+          rates.tangential += other.friction.damping * moved_by_friction(response.w, other.friction.along);
       }
       const ImpulseResponse& part = responses_[block][static_cast<std::size_t>(local) * (size + 1)];
       own.w += part.w;
