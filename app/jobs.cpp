@@ -282,6 +282,10 @@ Forecast check_jobs(MPI_Comm comm, const study::Study& study, const std::vector<
   out.outputs = study.transient->duration / output_interval(study);
   const std::vector<transient::StepChoice> choices = choose_steps(comm, study, scenes);
   const double with_verification = study.transient->verify && !study.contacts.empty() ? 3.0 : 1.0;
+  const auto shortest = std::min_element(choices.begin(), choices.end(),
+                                         [](const auto& a, const auto& b) { return a.step < b.step; });
+  if (shortest != choices.end())
+    out.step_reason = shortest->reason;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const transient::StepChoice& choice = choices[s];
     out.steps += static_cast<double>(choice.steps);

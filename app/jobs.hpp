@@ -39,6 +39,7 @@ void run_jobs(MPI_Comm comm, const study::Study& study, const std::vector<BuiltS
 struct Forecast {
   double steps = 0.0, outputs = 0.0; ///< of all scenes; instants
   PilotTime time;                    ///< of all scenes one after the other
+  std::string step_reason;           ///< of the shortest step
   std::vector<double> impact_rows;   ///< of one contact of each scene, at most
   std::vector<std::string> warnings; ///< of the choice of steps
 };

@@ -76,11 +76,11 @@ std::string forecast_text(MPI_Comm comm, const study::Study& study, const std::v
                             : fmt::format("modes.accuracy = {:g}{}", out.modes_limit->accuracy,
                                           study.modes.number_given ? "" : ", the default"));
   return fmt::format(
-      "  {}{}; a run: {:g} s, {}, {}{}; results.h5: {} of series, up to {} of impacts\n",
+      "  {}{}; a run: {:g} s, {}, {}{}; results.h5: {} of series, up to {} of impacts\n  step: {}\n",
       results::counted(static_cast<std::int64_t>(results::sorted_modes(out.bases).size()), "mode"), limit,
       study.transient->duration, steps, time_text(forecast.time),
       study.gap_opening ? fmt::format(" each of up to {} times", study.gap_opening->stages) : "",
-      size_text(size.series), size_text(size.impacts));
+      size_text(size.series), size_text(size.impacts), forecast.step_reason);
 }
 
 } // namespace fretwork::app

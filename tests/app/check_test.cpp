@@ -105,6 +105,18 @@ TEST(Check, LeavesNothing) {
   EXPECT_TRUE(says(outcome.out, "8 modes; a run: 0.02 s, "));
 }
 
+TEST(Check, SaysWhatTheStepResolves) {
+  const Workshop folder;
+  const fs::path study = folder.write(
+      "study.toml", tubes(folder, 1) + support +
+                        "friction = 0.3\ntangential_stiffness = 1.0e6\ntangential_damping = 1.0e9\n" +
+                        push(0, 200.0));
+  EXPECT_TRUE(says(folder.fretwork(with("check", study, {"transient.step=1e-5"})).out,
+                   "\n  step: given in the study\n"));
+  EXPECT_TRUE(says(folder.fretwork(with("check", study, {})).out,
+                   "a smaller tangential_damping makes the step longer"));
+}
+
 /// MB of series that `check` forecasts.
 double forecast(const Workshop& folder, const fs::path& study, const std::vector<std::string>& set) {
   const std::string said = folder.fretwork(with("check", study, set)).out;
