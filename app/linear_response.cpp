@@ -111,16 +111,15 @@ void add_load(const TurbulentLoad& load, const modal::Basis& basis, const flow::
   }
 }
 
-/// Modes at whose frequencies the band leaves nothing; what that loses of a displacement is `share_above`.
+/// Modes above the band respond quasi-statically; what that loses of a displacement is `share_above`.
 void note_pinned_modes_above(const TurbulentLoad& load, const modal::Basis& basis,
                              const std::string& response, std::vector<std::string>& notes) {
   if (const Eigen::Index above = modes_above(load.band, basis);
       above > 0 && !zones_on(load, {&basis}).empty())
     notes.push_back(fmt::format(
         "response \"{}\": {} of {} modes, up to {:.4g} Hz, lie above the band of {}, which ends at {:.4g} "
-        "Hz: "
-        "it has nothing at their frequencies; share_above is what that loses, band of [[turbulence]] widens "
-        "it",
+        "Hz, and respond quasi-statically; share_above is what forces above it would add, a wider band of "
+        "[[turbulence]] has them",
         response, above, basis.true_modes(), basis.omega(basis.true_modes() - 1) / (2.0 * std::numbers::pi),
         load.name, load.band.high));
 }

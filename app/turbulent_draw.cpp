@@ -47,7 +47,7 @@ private:
   mutable std::weak_ptr<signals::ForceSamples> opened_;
 };
 
-/// Modes above the band follow its forces without resonance.
+/// Modes above the band respond quasi-statically.
 void note_modes_above(const TurbulentLoad& load, const std::vector<const modal::Basis*>& bases,
                       std::vector<std::string>& notes) {
   Eigen::Index above = 0, all = 0;
@@ -56,8 +56,8 @@ void note_modes_above(const TurbulentLoad& load, const std::vector<const modal::
     all += basis->true_modes();
   }
   if (above > 0)
-    notes.push_back(fmt::format("{}: {} of {} modes lie above its band, which ends at {:.4g} Hz: its forces "
-                                "have nothing at their frequencies",
+    notes.push_back(fmt::format("{}: {} of {} modes lie above its band, which ends at {:.4g} Hz, and respond "
+                                "quasi-statically; a wider band excites them",
                                 load.name, above, all, load.band.high));
 }
 
