@@ -31,8 +31,11 @@ transient::Scene member_of(const RandomScene& random, double duration, int membe
   double shape = 0.0;
   for (const transient::ContactPoint& point : scene.contacts)
     shape = std::max(shape, point.b.col(0).norm());
-  for (const Eigen::Index first : random.first_modes)
-    scene.q0.segment(first, 3).array() += disturbance * random.gap * member / shape;
+  double moved = disturbance * random.gap * member / shape;
+  for (const Eigen::Index first : random.first_modes) {
+    scene.q0.segment(first, 3).array() += moved;
+    moved = -moved; // so that contacts between two are disturbed too
+  }
   for (vibration::Load& load : scene.loads)
     if (auto* noise = std::get_if<signals::Random>(&load.function))
       noise->seed += 7919U * static_cast<std::uint64_t>(member);

@@ -21,6 +21,7 @@ double shortest_step(const transient::Scene& scene, double resolution) {
   double h = scene.duration / 1000.0;
   const auto limit = [&](double share, double rate) { h = rate > 0.0 ? std::min(h, share / rate) : h; };
   limit(resolution, rates.contact_frequency);
+  limit(resolution, rates.stick_frequency);
   limit(5.0 * resolution, rates.damper_rate);
   limit(10.0 * resolution, transient::relaxation_rate(scene));
   limit(10.0 * resolution, rates.highest_mode);
