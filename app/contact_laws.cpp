@@ -33,15 +33,11 @@ contact::NormalLaw normal_law(const study::Contact& contact, const PlacedContact
 double automatic_damping(const study::Contact& contact, const std::string& name,
                          const vibration::System& system, const contact::Obstacle& obstacle,
                          const Eigen::MatrixXd& b) {
-  const auto [ny, nz] = contact::normal_directions(obstacle);
-  const bool round = ny && nz;
+  const std::array<bool, 3> directions = contact::friction_directions(obstacle, contact.friction_along);
   Eigen::VectorXd size2 = Eigen::VectorXd::Zero(b.cols());
-  if (contact.friction_along.x > 0.0)
-    size2 += b.row(0).cwiseAbs2();
-  if (contact.friction_along.t > 0.0 && (round || !ny))
-    size2 += b.row(1).cwiseAbs2();
-  if (contact.friction_along.t > 0.0 && (round || !nz))
-    size2 += b.row(2).cwiseAbs2();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (directions[static_cast<std::size_t>(k)])
+      size2 += b.row(k).cwiseAbs2();
   Eigen::Index mode = 0;
   const double largest = size2.size() > 0 ? size2.maxCoeff(&mode) : 0.0;
   if (!(largest > 0.0))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// @file
-/// What a piece of stick or slip (friction_interval.hpp, whose symbols these are) needs of its length tau alone.
+/// What a piece of stick or slip (friction_interval.hpp) needs of its length tau alone. r = K_T tau/C_T; s = 1/(1 - e^-r) - 1/r: the share of the piece at
+/// which its force has the spring's end, T + (1 - e^-r)(F_s - T).
 #pragma once
 #include "contact/friction_law.hpp"
 

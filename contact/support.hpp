@@ -5,6 +5,7 @@
 #include "contact/friction_law.hpp"
 #include "contact/normal_law.hpp"
 #include "contact/obstacle.hpp"
+#include <array>
 
 namespace fretwork::contact {
 
@@ -21,5 +22,9 @@ struct Support {
 /// Source: R5.06.03 section 6.5.
 [[nodiscard]] double automatic_tangential_damping(double tangential_stiffness, double mode_stiffness,
                                                   double mode_mass, double mode_damping);
+
+/// Directions x y z in which friction can act, of those in which the law lets it (`along`): x_loc, and across it all that a tangent can take, not the normal of
+/// a plane.
+[[nodiscard]] std::array<bool, 3> friction_directions(const Obstacle& obstacle, Vec2 along);
 
 } // namespace fretwork::contact

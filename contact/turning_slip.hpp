@@ -6,6 +6,7 @@
 /// integral of K_T |v|/|P| (friction_interval.hpp). The angle between both falls with tan(angle/2) = tan(angle_0/2) e^-a.
 #pragma once
 #include "contact/plane.hpp"
+#include <cassert>
 #include <cmath>
 
 namespace fretwork::contact {
@@ -15,7 +16,9 @@ public:
   /// @param direction, towards  e at the start and g, of length 1, not opposite to each other
   TurningSlip(Vec2 direction, Vec2 towards)
       : towards_(towards), across_{-towards.t, towards.x},
-        tangent_(dot(direction, across_) / (1.0 + dot(direction, towards))) {}
+        tangent_(dot(direction, across_) / (1.0 + dot(direction, towards))) {
+    assert(dot(direction, towards) > -1.0);
+  }
   [[nodiscard]] Vec2 after(double a) const {
     const double t = tangent_ * std::exp(-a);
     return (1.0 / (1.0 + t * t)) * ((1.0 - t * t) * towards_ + 2.0 * t * across_);

@@ -107,11 +107,8 @@ std::array<bool, 3> normal_rows(const contact::Support& support) {
   return {false, y, z};
 }
 
-/// Where friction acts along them: x_loc, and every direction across it that a tangent can take, all but the normal of a plane.
-std::array<bool, 3> tangent_rows(const contact::Support& support) {
-  const auto [y, z] = contact::normal_directions(support.obstacle);
-  const contact::Vec2 along = support.friction.along;
-  return {along.x > 0.0, along.t > 0.0 && (!y || z), along.t > 0.0 && (!z || y)};
+std::array<bool, 3> friction_rows(const contact::Support& support) {
+  return contact::friction_directions(support.obstacle, support.friction.along);
 }
 
 /// What a contact has along one direction by itself.
@@ -212,12 +209,12 @@ SceneRates rates_of(const Scene& scene) {
   };
   SceneRates out;
   out.contact_frequency = std::sqrt(largest_of(scene, stiffness_n, normal_rows));
-  out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, tangent_rows));
+  out.stick_frequency = std::sqrt(largest_of(scene, stiffness_t, friction_rows));
   std::vector<OwnRates> own;
   add_own_rates(scene, stiffness_n, normal_rows, own);
-  add_own_rates(scene, stiffness_t, tangent_rows, own);
+  add_own_rates(scene, stiffness_t, friction_rows, own);
   out.structure_frequency = structure_frequency(own);
-  out.damper_rate = largest_of(scene, damping_t, tangent_rows);
+  out.damper_rate = largest_of(scene, damping_t, friction_rows);
   out.normal_damper_rate = largest_of(
       scene, [](const ContactPoint& point) { return point.support.normal.damping; }, normal_rows);
   out.hunt_crossley =

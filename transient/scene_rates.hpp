@@ -16,7 +16,8 @@ struct SceneRates {
   /// w_s, rad/s, of the structure where the fastest contacts touch it: the rms of the frequencies of the modes by their shares of a contact's mobility along
   /// one direction, the largest of contacts that by themselves, closed or sticking, have half of the largest frequency of one.
   double structure_frequency = 0.0;
-  double damper_rate = 0.0; ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2 over the same
+  double damper_rate =
+      0.0; ///< r_t, 1/s, the largest eigenvalue of C_T^1/2 W C_T^1/2 over the same directions
   double normal_damper_rate =
       0.0; ///< r_n, 1/s, the largest eigenvalue of C_N^1/2 W C_N^1/2 over the normal directions; not of Hunt and
            ///< Crossley's dampers

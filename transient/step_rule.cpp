@@ -29,6 +29,8 @@ constexpr double day = 86400.0; // s
 constexpr double least_adaptive_steps = 200;
 /// Length of a replay: w_c times it; in steps, at least; of the duration, at most.
 constexpr double contact_times = 15.0, least_replay = 8.0, longest_replay = 0.01;
+/// Of w_c: a slower w_t does not make replays longer.
+constexpr double slowest_followed = 0.1;
 /// Steps of a macro-step. More gain little: its end, with displacements and velocities, costs as much as one step.
 constexpr double most_macro_steps = 12.0;
 /// w_max times a macro-step, at an accuracy of 0.01: a dozen points a period of the highest mode, which statistics are to see.
@@ -148,12 +150,13 @@ int intervals_of_step(const StepChoice& c, double fineness) {
       std::clamp(std::ceil(needed * (1.0 - time_round_off)), 1.0, 1.0 * limits.intervals));
 }
 
-/// Length of replays: two or three periods of closed contacts, sticking ones included.
+/// Length of replays: two or three periods of closed contacts, sticking ones included where they are not far slower: the two motions would part by chaos.
 double replay_length(const StepChoice& c, const Scene& scene) {
   if (c.scheme != SchemeKind::splitting || !(c.contact_frequency > 0.0))
     return 0.0;
-  const double slowest =
-      c.stick_frequency > 0.0 ? std::min(c.contact_frequency, c.stick_frequency) : c.contact_frequency;
+  const double sticking = std::max(c.stick_frequency, slowest_followed * c.contact_frequency),
+               slowest =
+                   c.stick_frequency > 0.0 ? std::min(c.contact_frequency, sticking) : c.contact_frequency;
   return std::min(std::max(contact_times / slowest, least_replay * c.step), longest_replay * scene.duration);
 }
 

@@ -11,7 +11,7 @@ namespace {
 Vec2 at_angle(double a) { return {std::cos(a), std::sin(a)}; }
 double between(Vec2 a, Vec2 b) { return norm(a - b); }
 
-constexpr double round_off = 1e-14;
+constexpr double round_off = 1e-13; // near the opposite direction half of the angle has a tangent of 14
 const Vec2 towards = at_angle(0.4);
 
 } // namespace

@@ -478,6 +478,7 @@ TEST(StepRule, LooksOnlyAlongTheDirectionsOfFriction) {
   // a damper along x that would be fast across it, where the contact moves more easily
   Scene scene = scene_with({PlanePair{0.1, PlaneAxis::y}, {8e4}, {2e4, 100.0, 0.3, 0.3}});
   scene.contacts[0].b.row(0) *= 0.1;
+  scene.contacts[0].b.row(1) *= 5.0; // the normal
   scene.contacts[0].b.row(2) *= 3.0;
   const double rate = 100.0 / mass;
   const auto along = [&](double x, double t) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts that stick under dampers of any speed, as those of a rod in its grids: nodes between two pressed stops each, modes to any frequency.
 #include "scenes.hpp"
+#include "transient/splitting/splitting.hpp"
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <complex>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -123,7 +125,71 @@ Scene row_held_in_its_middle() {
   return scene;
 }
 
+constexpr int axial = 8, modes_of_rod = 9; ///< the last mode moves it along its axis
+constexpr double along_axis = 0.03; ///< kg^-1/2, its shape there: of a mass a thousand times that of bending
+constexpr double speed = 1e-3;      ///< m kg^1/2/s, at the start
+
+/// A rod between pairs of pressed stops at five places, whose friction acts along its axis alone; it starts along it. @param damping  C_T, N s/m
+Scene rod_stuck_along_its_axis(double stiffness, double damping) {
+  Scene scene;
+  scene.system.stiffness.resize(modes_of_rod);
+  for (int i = 0; i < axial; ++i)
+    scene.system.stiffness(i) = std::pow(100.0 * (1 + i / 2) * (1 + i / 2), 2);
+  scene.system.stiffness(axial) = std::pow(700.0, 2);
+  scene.system.damping = Eigen::VectorXd::Zero(modes_of_rod);
+  for (const double x : {0.13, 0.31, 0.48, 0.66, 0.87}) {
+    ContactPoint point;
+    point.support = {contact::Stop{0.0, contact::PlaneAxis::y}, {2e5}, {stiffness, damping, 10.0, 10.0}};
+    point.support.friction.along = {1.0, 0.0};
+    point.rest = {0.0, overlap, 0.0};
+    point.b = Eigen::MatrixXd::Zero(3, modes_of_rod);
+    for (int i = 0; i < axial; ++i)
+      point.b(1 + i % 2, i) = std::sin((1 + i / 2) * std::numbers::pi * x);
+    point.b(0, axial) = along_axis;
+    scene.contacts.push_back(point);
+    point.b.bottomRows(2) *= -1.0;
+    scene.contacts.push_back(point);
+  }
+  scene.q0 = scene.v0 = Eigen::VectorXd::Zero(modes_of_rod);
+  scene.v0(axial) = speed; // springs are slack at the start
+  scene.duration = 3.0;
+  return scene;
+}
+
 } // namespace
+
+TEST(StickingContacts, FollowTheirOscillatorAlongAHeavyAxis) {
+  // ten springs and dampers beside each other on one mode: damped as it vibrates, and above the critical damping
+  constexpr double stiffness = 2e7;
+  const double w2 = std::pow(700.0, 2) + 10.0 * stiffness * along_axis * along_axis;
+  constexpr double cases[][2] = {{20.0, 1e-3},
+                                 {300.0, 5e-4},
+                                 {3e3, 5e-3},
+                                 {1e4, 9e-3},
+                                 {1e5, 0.031}}; // 10 C_T W, 1/s; bound of the error
+  for (const auto& [rate, bound] : cases) {
+    const Scene scene = rod_stuck_along_its_axis(stiffness, rate / (10.0 * along_axis * along_axis));
+    StepOptions options;
+    options.scheme = SchemeKind::splitting;
+    const StepChoice choice = choose_step(scene, options);
+    const auto scheme =
+        make_splitting(scene, choice.step, {.fastest = choice.fastest, .parts = choice.parts});
+    Eigen::VectorXd q(modes_of_rod), v(modes_of_rod);
+    const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * rate * rate - w2)),
+                               fast = -0.5 * rate - root, slow = -0.5 * rate + root;
+    double worst = 0.0, largest = 0.0;
+    while (scheme->next_time() < scene.duration) {
+      const Record& record = scheme->advance();
+      const double t = record.time + 0.5 * record.step; // inside it the modes move as under a linear force
+      scheme->state_at(t, q.data(), v.data());
+      const double exact = speed * ((std::exp(slow * t) - std::exp(fast * t)) / (slow - fast)).real();
+      largest = std::max(largest, std::abs(exact));
+      worst = std::max(worst, std::abs(q(axial) - exact));
+    }
+    EXPECT_LT(worst / largest, bound)
+        << rate; // the last two 0.085 and 0.17 if they answered as by the mass of bending
+  }
+}
 
 TEST(StickingContacts, KeepTheEnergyWhereTheyStartToSlipBesideAFastStructure) {
   const Scene scene = row_held_in_its_middle();

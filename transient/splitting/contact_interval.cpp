@@ -62,23 +62,34 @@ IntervalTable ContactIntervals::table(int count) const {
   table.length = table.share * h_;
   table.w = own_.over(table.length);
   table.compliance = own_.compliance(table.length);
-  table.mobility = std::max({table.w(0, 0), table.w(1, 1), table.w(2, 2)});
+  const double across = std::max(table.w(0, 0), table.w(1, 1)), along_x = table.w(2, 2);
+  table.mobility = std::max(across, along_x);
   table.growing = contact::growing_damping(normal_.damping, normal_.damping * table.mobility * table.length);
-  table.sliding_mass = apparent_mass(table, normal_.stiffness, normal_.damping);
-  table.apparent_mass =
-      std::max(table.sliding_mass, apparent_mass(table, friction_.stiffness, friction_.damping));
+  table.sliding_mass = apparent_mass(table.length, table.mobility, normal_.stiffness, normal_.damping);
+  table.mass_across = table.mass_along = table.sliding_mass;
   if (friction_.active()) {
+    const auto sticking_mass = [&](double mobility) {
+      return apparent_mass(table.length, mobility, friction_.stiffness, friction_.damping);
+    };
+    if (friction_.along.t > 0.0) {
+      table.friction_mobility = across;
+      table.mass_across = std::max(table.sliding_mass, sticking_mass(across));
+    }
+    if (friction_.along.x > 0.0) {
+      table.friction_mobility = std::max(table.friction_mobility, along_x);
+      table.mass_along = std::max(table.sliding_mass, sticking_mass(along_x));
+    }
     table.spring_left = spring_left(table.length);
-    table.pieces = contact::piece_tables(friction_, table.mobility, table.length);
+    table.pieces = contact::piece_tables(friction_, table.friction_mobility, table.length);
     if (friction_.kind == contact::FrictionMemoryKind::reference)
       table.reference = contact::friction_table(friction_, table.length);
   }
   return table;
 }
 
-double ContactIntervals::apparent_mass(const IntervalTable& table, double stiffness, double damping) {
-  const double force = table.length * (stiffness * table.length / 6.0 + damping);
-  return force / (1.0 + force * table.mobility);
+double ContactIntervals::apparent_mass(double length, double mobility, double stiffness, double damping) {
+  const double force = length * (stiffness * length / 6.0 + damping);
+  return force / (1.0 + force * mobility);
 }
 
 int ContactIntervals::least_count(int parts, const ContactPast& past, const FreePath& path) const {
@@ -172,10 +183,13 @@ double ContactIntervals::force_change(const MovingContact& m, const IntervalTabl
                                       const Components& by) const {
   if (!m.course.penetrates) // one that its damper holds free of force answers too
     return 0.0;
-  double mass = m.course.past.friction.sliding ? table.sliding_mass : table.apparent_mass;
+  const bool slides = m.course.past.friction.sliding;
+  double across = slides ? table.sliding_mass : table.mass_across;
+  const double along_x = slides ? table.sliding_mass : table.mass_along;
   if (normal_.dissipation > 0.0)
-    mass = std::max(mass, apparent_mass(table, normal_.stiffness, normal_.damping_at(m.penetration)));
-  return mass * sum_of_sizes(by);
+    across = std::max(across, apparent_mass(table.length, table.mobility, normal_.stiffness,
+                                            normal_.damping_at(m.penetration)));
+  return across * (std::abs(by.y()) + std::abs(by.z())) + along_x * std::abs(by.x);
 }
 
 void ContactIntervals::extrapolate(MovingContact& m, const IntervalTable& table) {

@@ -108,16 +108,18 @@ struct MovingContact {
 
 /// What the laws need of an interval of a given length.
 struct IntervalTable {
-  int count = 0;         ///< intervals of a step
-  double length = 0.0;   ///< dt, s
-  double share = 1.0;    ///< of a step
-  Mobility w;            ///< 1/kg, over(dt)
-  Mobility compliance;   ///< m/N, Y
-  double mobility = 0.0; ///< 1/kg, the largest along any direction
-  double growing = 0.0;  ///< N s/m, c' of normal_interval.hpp
-  double apparent_mass = 0.0,
-         sliding_mass = 0.0; ///< kg: force for an acceleration of 1 m/s2 over it; where the contact slides
-  double spring_left = 0.0;  ///< share of an open contact's spring after the interval
+  int count = 0;                  ///< intervals of a step
+  double length = 0.0;            ///< dt, s
+  double share = 1.0;             ///< of a step
+  Mobility w;                     ///< 1/kg, over(dt)
+  Mobility compliance;            ///< m/N, Y
+  double mobility = 0.0;          ///< 1/kg, the largest along any direction
+  double friction_mobility = 0.0; ///< 1/kg, the largest along those in which friction acts
+  double growing = 0.0;           ///< N s/m, c' of normal_interval.hpp
+  double sliding_mass =
+      0.0; ///< kg: force for an acceleration of 1 m/s2 over it, of a contact that slides; of one that sticks:
+  double mass_across = 0.0, mass_along = 0.0; ///< across x_loc and along it
+  double spring_left = 0.0;                   ///< share of an open contact's spring after the interval
   contact::PieceTables pieces{};
   contact::FrictionTable reference{}; ///< of that memory
 };
@@ -184,7 +186,7 @@ private:
     return contact::locate(obstacle_, u.y() + rest_.y(), u.z() + rest_.z());
   }
   /// kg: force of a spring and a damper for an acceleration of 1 m/s2 over an interval
-  [[nodiscard]] static double apparent_mass(const IntervalTable& table, double stiffness, double damping);
+  [[nodiscard]] static double apparent_mass(double length, double mobility, double stiffness, double damping);
   /// N: its last force, the normal part and friction at their means where asked for.
   [[nodiscard]] static Components with_means(const MovingContact& m, bool of_normal, bool of_friction);
   [[nodiscard]] int intervals_at_side(int parts, double way) const;

@@ -163,8 +163,8 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
                    path, m);
     } else {
       add_friction(a, n, table,
-                   contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring,
-                                                   memory.sliding, length, n.course, path),
+                   contact::friction_over_interval(friction_, table.pieces, table.friction_mobility,
+                                                   memory.spring, memory.sliding, length, n.course, path),
                    path, m);
     }
   } else {
@@ -176,8 +176,8 @@ void ContactIntervals::find_friction(Passage passage, const Motion& a, const Nor
                                                        friction_.along.t * tangent(axes, compliance_by_t),
                                                        friction_.along.t * tangent(axes, shift)};
     add_friction(a, n, table,
-                 contact::friction_over_interval(friction_, table.pieces, table.mobility, memory.spring.t,
-                                                 memory.sliding, length, n.course, path),
+                 contact::friction_over_interval(friction_, table.pieces, table.friction_mobility,
+                                                 memory.spring.t, memory.sliding, length, n.course, path),
                  path, m);
   }
   m.course.past.spring_at_opening = dot(memory.spring, memory.spring);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "transient/splitting/coupled_contacts.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fretwork::transient {
@@ -31,14 +32,18 @@ std::vector<char> close_pairs(const std::vector<ImpulseResponse>& responses, std
   return close;
 }
 
-/// The largest component by size of what a force of friction with these directions moves, of them all.
-double moved_by_friction(const Mobility& w, contact::Vec2 along) {
+/// The largest component by size between directions x y z, of the contact that moves and of the one whose force moves it.
+double largest_between(const Mobility& w, const std::array<bool, 3>& to, const std::array<bool, 3>& from) {
   double out = 0.0;
-  for (int to = 0; to < 3; ++to)
-    for (int from = 0; from < 3; ++from)
-      if ((from == 2 ? along.x : along.t) > 0.0)
-        out = std::max(out, std::abs(w(to, from)));
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) // x is the last of w
+      if (to[static_cast<std::size_t>(i)] && from[static_cast<std::size_t>(k)])
+        out = std::max(out, std::abs(w((i + 2) % 3, (k + 2) % 3)));
   return out;
+}
+
+std::array<bool, 3> friction_directions(const contact::Support& support) {
+  return contact::friction_directions(support.obstacle, support.friction.along);
 }
 
 } // namespace
@@ -76,6 +81,7 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
   for (int c = 0; c < contacts.count; ++c) {
     ImpulseResponse own;
     DamperRates rates;
+    const std::array<bool, 3> directions = friction_directions(contacts.supports[c]);
     for (const auto& [block, local] : blocks_.places[c]) {
       const auto size = blocks_.contacts[block].size();
       for (std::size_t from = 0; from < size; ++from) {
@@ -85,7 +91,8 @@ CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks b
         rates.normal += other.normal.damping * coupling;
         rates.by_penetration += other.normal.stiffness * other.normal.dissipation * coupling;
         if (other.friction.active())
-          rates.tangential += other.friction.damping * moved_by_friction(response.w, other.friction.along);
+          rates.tangential +=
+              other.friction.damping * largest_between(response.w, directions, friction_directions(other));
       }
       const ImpulseResponse& part = responses_[block][static_cast<std::size_t>(local) * (size + 1)];
       own.w += part.w;
