@@ -215,6 +215,15 @@ RandomScene random_mass(Draw& draw) {
       loads += 'c';
     }
   }
+  if (draw.chance(heavy_axes)) {
+    const double lightness = draw.logarithmic(1e-3, 0.3), heavier = 1.0 / std::sqrt(lightness);
+    scene.contacts[0].b.row(0) /= heavier;
+    for (vibration::Load& load : scene.loads)
+      load.modal_force(0) *= heavier;
+    if (laws.along.t == 0.0)
+      scene.contacts[0].support.friction.damping *= heavier;
+    loads += fmt::format(", m_x/m {:.0f}", 1.0 / lightness);
+  }
   out.period = 1.0 / lowest;
   out.gap = gap;
   out.description =

@@ -113,6 +113,36 @@ void add_loads(Draw& draw, transient::Scene& scene, const Tube& tube, double rat
   }
 }
 
+/// Motion along x_loc: one mode that all contacts share, of a mass 3 to 1000 times that of bending, with a load.
+void add_axis(Draw& draw, transient::Scene& scene, const Tube& tube, double ratio, double gap,
+              std::string& names) {
+  const double lightness = draw.logarithmic(1e-3, 0.3), shape = std::sqrt(lightness * mobility(tube)),
+               f = tube.of_spans() / (2.0 * pi) * draw.logarithmic(0.5, 5.0), omega = 2.0 * pi * f;
+  const Eigen::Index axis = scene.system.size();
+  scene.system.stiffness.conservativeResize(axis + 1);
+  scene.system.damping.conservativeResize(axis + 1);
+  scene.system.stiffness(axis) = omega * omega;
+  scene.system.damping(axis) = 2.0 * ratio * omega;
+  const bool axial = draw.chance(0.3);
+  for (transient::ContactPoint& point : scene.contacts) {
+    point.b.conservativeResizeLike(Eigen::MatrixXd::Zero(3, axis + 1));
+    point.b(0, axis) = shape;
+    if (axial) {
+      point.support.friction.along = {1.0, 0.0};
+      point.support.friction.damping /= std::sqrt(lightness);
+    }
+  }
+  for (vibration::Load& load : scene.loads)
+    load.modal_force.conservativeResizeLike(Eigen::VectorXd::Zero(axis + 1));
+  vibration::Load along{
+      draw_load(draw, f, ratio, tube.of_spans() / (2.0 * pi), gap * draw.logarithmic(0.1, 2.0)),
+      Eigen::VectorXd::Zero(axis + 1)};
+  along.modal_force(axis) = omega * omega / shape;
+  names +=
+      fmt::format("{}, m_x/m {:.0f}{}", letter_of(along.function), 1.0 / lightness, axial ? " axial" : "");
+  scene.loads.push_back(along);
+}
+
 void finish(RandomScene& out, const Tube& tube, double gap) {
   out.scene.q0 = out.scene.v0 = Eigen::VectorXd::Zero(out.scene.system.size());
   out.period = 2.0 * pi / tube.of_spans();
@@ -163,6 +193,8 @@ RandomScene random_tube(Draw& draw, bool mixed) {
   std::string places, loads;
   add_supports(draw, out.scene, tube, laws, places);
   add_loads(draw, out.scene, tube, ratio, gap * draw.logarithmic(0.5, 3.0), loads);
+  if (draw.chance(heavy_axes))
+    add_axis(draw, out.scene, tube, ratio, gap, loads);
   finish(out, tube, gap);
   out.description = fmt::format(
       "{} modes, {} contacts: {}, w_c/w_s {:.0f}, {}, loads {}, {:.3g} Hz, zeta {:.2g}, gap {:.2g} mm",
