@@ -2,9 +2,9 @@
 /// @file
 /// Statistics of runs against those of the reference solution, scene by scene.
 ///
-/// Impacts with friction are chaotic: members of an ensemble differ by steps of 2 % of the gap in the initial state of each structure and by the seeds
-/// of random loads. A member is run by both; the error of a figure is the mean of the differences, its standard error their scatter over the square
-/// root of their number. Members are added until all standard errors are below a quarter of the tolerance, or the budget is used up.
+/// Impacts with friction are chaotic: members of an ensemble differ by steps of 2 % of the gap in the initial state of each structure and by
+/// the seeds of random loads. A member is run by both; the error of a figure is the mean of the differences, its standard error their
+/// scatter over the square root of their number. Members are added until all standard errors are below a quarter of the tolerance, or the budget is used up.
 ///
 /// A figure (sum over the contacts of a scene) fails where |error| > tolerance of the reference value + 2 standard errors; the tolerance is
 /// 2 % at accuracy 0.01, in proportion at others but never below 0.4 %; 0.1 % between two schemes. Left out:

@@ -10,8 +10,9 @@
 /// Common to all: w_c is 5 to 50 times the lowest mode (tubes: of one span); normal damping ratio 0 (two fifths) to 0.3, sometimes Hunt and
 /// Crossley's; mu 0.1 to 1, in a quarter of the scenes with a static coefficient up to 1.6 times as large; K_T/K_N 0.01 to 1; C_T 0 (a
 /// fifth), automatic or 0.05 to 1 of the critical damping of the mass that the contact feels; friction in the tangent plane, or restricted
-/// to one direction. Of a quarter of masses and tubes the mass along x_loc is up to a thousand times that across; other tubes have no motion along it. Contacts are open, touch, stand out of the middle or are pressed. Loads are harmonic, random, constant, or tables of 2
-/// to 20 rows a period, at unequal distances, with lines between them.
+/// to one direction. Of a quarter of masses and tubes the mass along x_loc is up to a thousand times that across; other tubes have no motion
+/// along it. Contacts are open, touch, stand out of the middle or are pressed. Loads are harmonic, random, constant, or tables of 2 to 20
+/// rows a period, at unequal distances, with lines between them.
 #pragma once
 #include "transient/scene/scene.hpp"
 #include <cstdint>

@@ -10,12 +10,12 @@ namespace friction_in_plane_test {
 using namespace fretwork;
 using namespace fretwork::contact;
 using tests::driven;
+using tests::law;
 using tests::line;
 
 namespace {
 
 constexpr double round_off = 1e-12;
-const FrictionLaw law{2.0, 0.0, 0.5, 0.5};
 
 } // namespace
 

@@ -12,6 +12,7 @@ namespace friction_interval_test {
 using namespace fretwork;
 using namespace fretwork::contact;
 using tests::driven;
+using tests::law;
 using tests::line;
 
 namespace {
@@ -19,8 +20,6 @@ namespace {
 constexpr double round_off = 1e-12;
 /// What the phase of ten periods may miss, rad: kappa is a series to x^8.
 double next_order(double x) { return 2e-6 * std::pow(x, 10) + 1e-9; }
-
-const FrictionLaw law{2.0, 0.0, 0.5, 0.5};
 
 } // namespace
 

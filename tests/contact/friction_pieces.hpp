@@ -6,6 +6,9 @@
 
 namespace fretwork::tests {
 
+/// A spring without damper.
+inline const contact::FrictionLaw law{2.0, 0.0, 0.5, 0.5};
+
 /// A normal force that is linear in time.
 inline contact::ParabolicForce line(double first, double last) { return {first, last, 0.5 * (first + last)}; }
 
