@@ -352,11 +352,15 @@ InStep Signal::in_step(double from, double to) const {
     return {constant->value, 0.0, 0.0};
   if (const auto* table = std::get_if<Table>(&function_))
     return in_step(*table, from, to);
-  const double root = std::sqrt(5.0), middle = 0.5 * (from + to), inner = 0.5 * (to - from) / root;
-  const double first = (*this)(from), before = (*this)(middle - inner), after = (*this)(middle + inner),
-               last = (*this)(to);
+  LobattoPoints<double> points = lobatto_times(from, to);
+  for (double& point : points)
+    point = (*this)(point);
+  return by_lobatto(points);
+}
+InStep Signal::by_lobatto(const LobattoPoints<double>& values) {
+  const auto [first, before, after, last] = values;
   const double ends = first + last, inside = before + after;
-  return {(ends + 5.0 * inside) / 12.0, 0.25 * (last - first + root * (after - before)),
+  return {(ends + 5.0 * inside) / 12.0, 0.25 * (last - first + std::sqrt(5.0) * (after - before)),
           5.0 / 12.0 * (ends - inside)};
 }
 

@@ -3,6 +3,7 @@
 /// Functions of time that loads and base motions follow.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -99,6 +100,15 @@ struct InStep {
   double mean = 0.0, slope = 0.0, bend = 0.0;
 };
 
+/// Lobatto's rule of four points over a step: its mean, slope and bend are exact to degree 5, 4 and 3. Something at each of its points.
+template <class T> using LobattoPoints = std::array<T, 4>;
+/// s
+[[nodiscard]] inline LobattoPoints<double> lobatto_times(double from, double to) {
+  constexpr double root_5 = 2.2360679774997897;
+  const double middle = 0.5 * (from + to), inner = 0.5 * (to - from) / root_5;
+  return {from, middle - inner, middle + inner, to};
+}
+
 class MotionSignal;
 
 /// A time function made ready for a run of `duration` seconds: values at any instant of it.
@@ -121,9 +131,12 @@ public:
   /// shorter (a jump: 0) meets the window the mean over the window: windows side by side keep the impulse. No allocation.
   [[nodiscard]] double over_step(double time, double h, Window window) const;
 
-  /// Over a step: a table exactly, jumps inside of it too; others by Lobatto's rule of four points, whose mean, slope and bend are exact to degree 5, 4
-  /// and 3. No allocation.
+  /// Over a step: a table exactly, jumps inside of it too; others by Lobatto's rule. No allocation.
   [[nodiscard]] InStep in_step(double from, double to) const;
+  /// Of a random signal, at Lobatto's points of the step on its grid. No allocation.
+  [[nodiscard]] InStep in_step(const LobattoPoints<SampleGrid::Place>& places) const {
+    return by_lobatto({at(places[0]), at(places[1]), at(places[2]), at(places[3])});
+  }
 
   /// Of a random signal: values and slopes times the grid's step, interleaved. Else empty.
   [[nodiscard]] std::span<const double> samples() const { return samples_; }
@@ -141,6 +154,7 @@ public:
 
 private:
   [[nodiscard]] InStep in_step(const Table& table, double from, double to) const;
+  [[nodiscard]] static InStep by_lobatto(const LobattoPoints<double>& values);
 
   TimeFunction function_;
   std::shared_ptr<const MotionSignal> motion_; ///< of an integral: what moves with that velocity

@@ -54,20 +54,30 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     sampled_at_end_.resize(static_cast<std::size_t>(padded_modes_));
 }
 
-template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
-  const signals::SampleGrid* grid = nullptr; // of the last random signal: those of a study mostly share one
-  signals::SampleGrid::Place place{};
+/// Hands out all signals: of random ones, those of a study mostly share one grid, their places on it at these times.
+template <std::size_t Times, class OfRandom, class OfOther>
+void LoadSum::each(const std::array<double, Times>& times, const OfRandom& of_random,
+                   const OfOther& of_other) const {
+  const signals::SampleGrid* grid = nullptr; // of the last random signal
+  std::array<signals::SampleGrid::Place, Times> places{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
     const signals::Signal& signal = signals_[k];
     if (!signal.is_random()) {
-      values_[k] = value(k);
+      of_other(k);
       continue;
     }
     if (!grid || *grid != signal.grid())
-      place = signal.grid().place(time);
+      for (std::size_t i = 0; i < Times; ++i)
+        places[i] = signal.grid().place(times[i]);
     grid = &signal.grid();
-    values_[k] = signal.at(place);
+    of_random(k, places);
   }
+}
+
+template <class Value> void LoadSum::combine(double time, const Value& value, double* force) {
+  each(
+      std::array{time}, [&](std::size_t k, const auto& places) { values_[k] = signals_[k].at(places[0]); },
+      [&](std::size_t k) { values_[k] = value(k); });
   sum(values_, force);
   for (signals::SampledForce& sampled : sampled_)
     sampled.add(time, force);
@@ -102,12 +112,15 @@ signals::InStep LoadSum::in_step(std::size_t signal, double start, double end) c
 }
 
 void LoadSum::in_step(double start, double end, double* load0, double* load1, double* bend) {
-  for (std::size_t k = 0; k < signals_.size(); ++k) {
-    const signals::InStep of = in_step(k, start, end);
+  const auto set = [&](std::size_t k, const signals::InStep& of) {
     first_[k] = of.mean - of.slope;
     last_[k] = of.mean + of.slope;
     bend_[k] = of.bend;
-  }
+  };
+  each(
+      signals::lobatto_times(start, end),
+      [&](std::size_t k, const auto& places) { set(k, signals_[k].in_step(places)); },
+      [&](std::size_t k) { set(k, in_step(k, start, end)); });
   sum(first_, load0);
   sum(last_, load1);
   if (bend)

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels/kernels.hpp"
 #include "vibration/system.hpp"
+#include <array>
 
 namespace fretwork::vibration {
 
@@ -39,6 +40,8 @@ public:
 
 private:
   /// The force at a time by the values of the signals, those that are not random as value(k) has them.
+  template <std::size_t Times, class OfRandom, class OfOther>
+  void each(const std::array<double, Times>& times, const OfRandom& of_random, const OfOther& of_other) const;
   template <class Value> void combine(double time, const Value& value, double* force);
   [[nodiscard]] signals::InStep in_step(std::size_t signal, double start, double end) const;
   /// Of all signals, by a value for each.
