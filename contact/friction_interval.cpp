@@ -262,7 +262,7 @@ private:
       return {before, before};
     const double goes_to =
         law_.mu_dynamic * turning_normal(t.share * t.length) + t.rate * moved * std::max(0.0, dot(start, to));
-    const double length = goes_to + (norm(trial) - goes_to) * t.mean_decay;
+    const double length = goes_to + (norm(trial) - goes_to) * mean_decay(t);
     const TurningSlip turning(start, to);
     const double a = law_.stiffness * moved / length;
     const Vec2 at = turning.after(t.share * a);

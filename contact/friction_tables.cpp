@@ -32,6 +32,7 @@ SlipTable slip_table(const FrictionLaw& law, double length) {
   const double c = law.damping / length, r = law.damping > 0.0 ? law.stiffness / c : no_damper;
   t.length = length;
   t.half = 0.5 * length * length;
+  t.r = r;
   t.relaxed = r < no_damper ? -std::expm1(-r) : 1.0;
   t.share = r < slow_damper ? 0.5 + r / 12.0 : 1.0 / t.relaxed - (r < no_damper ? 1.0 / r : 0.0);
   t.spread = r < slow_damper
@@ -39,8 +40,10 @@ SlipTable slip_table(const FrictionLaw& law, double length) {
                  : (r < no_damper ? 1.0 / (r * r) : 0.0) - (1.0 - t.relaxed) / (t.relaxed * t.relaxed);
   t.gradient = t.share * law.stiffness + c;
   t.rate = c;
-  t.mean_decay = r < no_damper ? -std::expm1(-r * t.share) / (r * t.share) : 0.0;
   return t;
+}
+double mean_decay(const SlipTable& t) {
+  return t.r < no_damper ? -std::expm1(-t.r * t.share) / (t.r * t.share) : 0.0;
 }
 
 PieceTables piece_tables(const FrictionLaw& law, double mobility, double length) {

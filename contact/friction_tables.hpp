@@ -17,18 +17,20 @@ struct StickTable {
   double rate;    ///< C_T/tau, N/m
 };
 struct SlipTable {
-  double length;     ///< tau, s
-  double half;       ///< tau^2/2, s2
-  double share;      ///< s
-  double spread;     ///< variance of the share of the piece that F_s stands for
-  double relaxed;    ///< 1 - e^-r
-  double gradient;   ///< s K_T + C_T/tau, N/m
-  double rate;       ///< C_T/tau, N/m
-  double mean_decay; ///< mean of e^(-r t/tau) until the share s
+  double length;   ///< tau, s
+  double half;     ///< tau^2/2, s2
+  double r;        ///< no_damper and more: there is none
+  double share;    ///< s
+  double spread;   ///< variance of the share of the piece that F_s stands for
+  double relaxed;  ///< 1 - e^-r
+  double gradient; ///< s K_T + C_T/tau, N/m
+  double rate;     ///< C_T/tau, N/m
 };
 /// @param mobility  1/kg, about the largest along a tangent
 [[nodiscard]] StickTable stick_table(const FrictionLaw& law, double mobility, double length);
 [[nodiscard]] SlipTable slip_table(const FrictionLaw& law, double length);
+/// Mean of e^(-r t/tau) until the share s. Slip in a plane alone asks for it.
+[[nodiscard]] double mean_decay(const SlipTable& t);
 
 struct PieceTables {
   StickTable stick;

@@ -29,7 +29,7 @@ TEST(FrictionTables, HaveTheSpringOfAnyForceThatIsAParabola) {
     EXPECT_NEAR(t.relaxed / moments[0], 1.0, 1e-5) << r;
     EXPECT_NEAR(t.share / (moments[1] / moments[0]), 1.0, 1e-5) << r;
     EXPECT_NEAR(t.spread, moments[2] / moments[0] - std::pow(moments[1] / moments[0], 2), 1e-5) << r;
-    EXPECT_NEAR(t.mean_decay, (1.0 - std::exp(-r * t.share)) / (r * t.share), 1e-9) << r;
+    EXPECT_NEAR(mean_decay(t), (1.0 - std::exp(-r * t.share)) / (r * t.share), 1e-9) << r;
   }
 }
 
