@@ -46,6 +46,12 @@ std::array<bool, 3> friction_directions(const contact::Support& support) {
   return contact::friction_directions(support.obstacle, support.friction.along);
 }
 
+/// Adds what forces do, where no contact moves along x half of the work.
+constexpr auto in_space = [](const Mobility& w, const Components& f, Components& to) { to = to + w * f; };
+constexpr auto in_plane = [](const Mobility& w, const Components& f, Components& to) {
+  to.yz += w.in_plane(f);
+};
+
 } // namespace
 
 CoupledContacts::CoupledContacts(const PackedContacts& contacts, ContactBlocks blocks,
@@ -311,20 +317,27 @@ void CoupledContacts::hold_back(int first, double dt) {
   for (int i = first; i >= 0; i = next_[i])
     moving_[i].held_back = moving_[i].held_back + dt * moving_[i].held_back_rate;
   for (int i = first; i >= 0; i = next_[i]) {
-    const MovingContact& m = moving_[i];
-    const Components force = m.force - forces_[m.number].held;
-    if (!(sum_of_sizes(force) + sum_of_sizes(m.growth) > 0.0))
-      continue;
-    for (const auto& [block, local] : blocks_.places[m.number]) {
-      const ImpulseResponse* by =
-          &responses_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
-      for (const auto& [k, to] : moving_blocks_[block].contacts) {
-        MovingContact& other = moving_[k];
-        const Components rate = dt * (by[to].v * force), growth = dt * (by[to].v * m.growth);
-        other.held_back = other.held_back + dt * (0.5 * rate - (1.0 / 12.0) * growth);
-        other.held_back_rate = other.held_back_rate + rate;
-        other.rate = other.rate - (dt * dt / 12.0) * (rate - 0.5 * growth);
-      }
+    if (contacts_.components == 3)
+      hold_back_others(moving_[i], dt, in_space);
+    else
+      hold_back_others(moving_[i], dt, in_plane);
+  }
+}
+template <class Times>
+void CoupledContacts::hold_back_others(const MovingContact& m, double dt, const Times& times) {
+  const Components force = dt * (m.force - forces_[m.number].held), growth = dt * m.growth;
+  if (!(sum_of_sizes(force) + sum_of_sizes(growth) > 0.0))
+    return;
+  const Components bent = dt * (0.5 * force - (1.0 / 12.0) * growth),
+                   moved = (dt * dt / 12.0) * (0.5 * growth - force);
+  for (const auto& [block, local] : blocks_.places[m.number]) {
+    const ImpulseResponse* by =
+        &responses_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
+    for (const auto& [k, to] : moving_blocks_[block].contacts) {
+      MovingContact& other = moving_[k];
+      times(by[to].v, bent, other.held_back);
+      times(by[to].v, force, other.held_back_rate);
+      times(by[to].v, moved, other.rate);
     }
   }
 }
@@ -370,6 +383,14 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
                               const Components& by_growth) {
   if (!(sum_of_sizes(by_force) + sum_of_sizes(by_growth) > 0.0))
     return;
+  if (contacts_.components == 3)
+    push_others(m, by_force, by_growth, in_space);
+  else
+    push_others(m, by_force, by_growth, in_plane);
+}
+template <class Times>
+void CoupledContacts::push_others(const MovingContact& m, const Components& by_force,
+                                  const Components& by_growth, const Times& times) {
   for (const auto& [block, local] : blocks_.places[m.number]) {
     const MovingBlock& of = moving_blocks_[block];
     const std::size_t from = static_cast<std::size_t>(local) * blocks_.contacts[block].size();
@@ -378,12 +399,12 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
       if (&other == &m)
         continue;
       const Mobility& w = of.mobility[from + static_cast<std::size_t>(to)];
-      other.others = other.others + w * by_force;
-      other.others_growth = other.others_growth + w * by_growth;
+      times(w, by_force, other.others);
+      times(w, by_growth, other.others_growth);
       if (of.close[from + static_cast<std::size_t>(to)]) {
         const Mobility& y = of.compliance[from + static_cast<std::size_t>(to)];
-        other.others_lift = other.others_lift + y * by_force;
-        other.others_lift_growth = other.others_lift_growth + y * by_growth;
+        times(y, by_force, other.others_lift);
+        times(y, by_growth, other.others_lift_growth);
       }
     }
   }
