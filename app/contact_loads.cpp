@@ -22,11 +22,13 @@ std::vector<Eigen::Index> loaded_directions(const study::Study& study,
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const PlacedContact& contact = placed[contacts[k]];
     const auto [y, z] = contact::normal_directions(contact.obstacle);
-    const bool friction = study.contacts[contact.entry].friction_static > 0.0;
+    const study::Contact& law = study.contacts[contact.entry];
+    const auto friction = contact::friction_directions(contact.obstacle, law.friction_along);
     const bool normal[] = {false, y, z};
     for (Eigen::Index d = 0; d < 3; ++d) {
       const Eigen::Index column = static_cast<Eigen::Index>(3 * k) + d;
-      if (normal[d] || (friction && moved(column) > unmoved * most))
+      if (normal[d] || (law.friction_static > 0.0 && friction[static_cast<std::size_t>(d)] &&
+                        moved(column) > unmoved * most))
         loaded.push_back(column);
     }
   }

@@ -2,7 +2,7 @@
 /// @file
 /// The unit forces with which the contacts of a scene load its structures.
 ///
-/// Loaded are the directions that a normal force can take and, with friction, those along which the modes move the contact. Between two
+/// Loaded are the directions that a normal force can take and, with friction, those in which it can act and along which the modes move the contact. Between two
 /// nodes the load is a pair of opposite forces, each on its structure.
 #pragma once
 #include "app/build_contacts.hpp"

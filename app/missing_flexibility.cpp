@@ -16,10 +16,13 @@ double missing_times_stiffness(const ContactFlexibility& flexibility, std::size_
                                const contact::Support& support) {
   const auto [y, z] = contact::normal_directions(support.obstacle);
   const bool normal[] = {false, y, z};
-  const double tangential = support.friction.active() ? support.friction.stiffness : 0.0;
+  const auto tangential = contact::friction_directions(support.obstacle, support.friction.along);
   double largest = 0.0;
   for (int d = 0; d < 3; ++d) {
-    const double stiffness = normal[d] ? std::max(support.normal.stiffness, tangential) : tangential;
+    const auto axis = static_cast<std::size_t>(d);
+    const double stiffness =
+        std::max(normal[d] ? support.normal.stiffness : 0.0,
+                 support.friction.active() && tangential[axis] ? support.friction.stiffness : 0.0);
     largest = std::max(largest, stiffness * ContactFlexibility::own(flexibility.missing, k)(d, d));
   }
   return largest;

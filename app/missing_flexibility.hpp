@@ -8,7 +8,7 @@
 
 namespace fretwork::app {
 
-/// Missing flexibility times stiffness, K_N along normals, K_T along tangents: the largest of a contact's local axes.
+/// Missing flexibility times stiffness, K_N along normals, K_T where friction can act: the largest of a contact's local axes.
 /// @param k  number of the contact in `flexibility`
 [[nodiscard]] double missing_times_stiffness(const ContactFlexibility& flexibility, std::size_t k,
                                              const contact::Support& support);
