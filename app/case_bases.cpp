@@ -71,6 +71,8 @@ std::string key_of_contacts(const study::Study& study, const std::vector<PlacedC
     append(key, y);
     append(key, z);
     append(key, entry.friction_static > 0.0);
+    append(key, entry.friction_along.x);
+    append(key, entry.friction_along.t);
     append(key, entry.thickness);
   }
   key += "inactive";
@@ -91,8 +93,6 @@ std::string key_of_pins(const study::Study& study, const std::vector<PlacedConta
   for (const PlacedContact& contact : all) {
     const study::Contact& entry = study.contacts[contact.entry];
     append(key, contact.active);
-    append(key, entry.friction_along.x);
-    append(key, entry.friction_along.t);
     append(key, entry.tangential_stiffness > 0.0);
     if (elastic) {
       append(key, contact.normal_stiffness);

@@ -19,7 +19,7 @@ struct StickTable {
 struct SlipTable {
   double length;   ///< tau, s
   double half;     ///< tau^2/2, s2
-  double r;        ///< no_damper and more: there is none
+  double r;        ///< K_T tau/C_T; from no_damper on there is none
   double share;    ///< s
   double spread;   ///< variance of the share of the piece that F_s stands for
   double relaxed;  ///< 1 - e^-r
@@ -29,7 +29,7 @@ struct SlipTable {
 /// @param mobility  1/kg, about the largest along a tangent
 [[nodiscard]] StickTable stick_table(const FrictionLaw& law, double mobility, double length);
 [[nodiscard]] SlipTable slip_table(const FrictionLaw& law, double length);
-/// Mean of e^(-r t/tau) until the share s. Slip in a plane alone asks for it.
+/// Mean of e^(-r t/tau) until the share s. Only slip in the tangent plane needs it.
 [[nodiscard]] double mean_decay(const SlipTable& t);
 
 struct PieceTables {

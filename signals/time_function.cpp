@@ -360,7 +360,7 @@ InStep Signal::in_step(double from, double to) const {
 InStep Signal::by_lobatto(const LobattoPoints<double>& values) {
   const auto [first, before, after, last] = values;
   const double ends = first + last, inside = before + after;
-  return {(ends + 5.0 * inside) / 12.0, 0.25 * (last - first + std::sqrt(5.0) * (after - before)),
+  return {(ends + 5.0 * inside) / 12.0, 0.25 * (last - first + root_5 * (after - before)),
           5.0 / 12.0 * (ends - inside)};
 }
 

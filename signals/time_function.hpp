@@ -100,11 +100,11 @@ struct InStep {
   double mean = 0.0, slope = 0.0, bend = 0.0;
 };
 
-/// Lobatto's rule of four points over a step: its mean, slope and bend are exact to degree 5, 4 and 3. Something at each of its points.
+/// Lobatto's rule of four points over a step: its mean, slope and bend are exact to degree 5, 4 and 3. T: what is known at each of its points.
 template <class T> using LobattoPoints = std::array<T, 4>;
-/// s
+inline constexpr double root_5 = 2.2360679774997897;
+/// Of a step, s.
 [[nodiscard]] inline LobattoPoints<double> lobatto_times(double from, double to) {
-  constexpr double root_5 = 2.2360679774997897;
   const double middle = 0.5 * (from + to), inner = 0.5 * (to - from) / root_5;
   return {from, middle - inner, middle + inner, to};
 }

@@ -54,12 +54,11 @@ LoadSum::LoadSum(const std::vector<Load>& loads, Eigen::Index modes, double dura
     sampled_at_end_.resize(static_cast<std::size_t>(padded_modes_));
 }
 
-/// Hands out all signals: of random ones, those of a study mostly share one grid, their places on it at these times.
-template <std::size_t Times, class OfRandom, class OfOther>
-void LoadSum::each(const std::array<double, Times>& times, const OfRandom& of_random,
+template <std::size_t Count, class OfRandom, class OfOther>
+void LoadSum::each(const std::array<double, Count>& times, const OfRandom& of_random,
                    const OfOther& of_other) const {
   const signals::SampleGrid* grid = nullptr; // of the last random signal
-  std::array<signals::SampleGrid::Place, Times> places{};
+  std::array<signals::SampleGrid::Place, Count> places{};
   for (std::size_t k = 0; k < signals_.size(); ++k) {
     const signals::Signal& signal = signals_[k];
     if (!signal.is_random()) {
@@ -67,7 +66,7 @@ void LoadSum::each(const std::array<double, Times>& times, const OfRandom& of_ra
       continue;
     }
     if (!grid || *grid != signal.grid())
-      for (std::size_t i = 0; i < Times; ++i)
+      for (std::size_t i = 0; i < Count; ++i)
         places[i] = signal.grid().place(times[i]);
     grid = &signal.grid();
     of_random(k, places);

@@ -39,9 +39,10 @@ public:
   void observe(double time, double* force);
 
 private:
+  /// Hands out all signals: random ones, which in a study mostly share one grid, with their places on it at these times.
+  template <std::size_t Count, class OfRandom, class OfOther>
+  void each(const std::array<double, Count>& times, const OfRandom& of_random, const OfOther& of_other) const;
   /// The force at a time by the values of the signals, those that are not random as value(k) has them.
-  template <std::size_t Times, class OfRandom, class OfOther>
-  void each(const std::array<double, Times>& times, const OfRandom& of_random, const OfOther& of_other) const;
   template <class Value> void combine(double time, const Value& value, double* force);
   [[nodiscard]] signals::InStep in_step(std::size_t signal, double start, double end) const;
   /// Of all signals, by a value for each.

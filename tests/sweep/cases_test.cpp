@@ -84,6 +84,34 @@ values = [1.0, 1.05]
   EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
 }
 
+// Friction along the tube loads it in fewer directions: static modes of one case are not those of the other.
+TEST_F(Sweeps, ACaseHasTheStaticModesOfItsOwnFriction) {
+  const std::string text = sweep_of("straight_tube", R"(
+design = "grid"
+keep = "worst 2"
+[[sweep.variables]]
+key = "contacts.support.friction_direction"
+values = ["axial", "both"]
+)");
+  std::vector<std::string> few = short_tube;
+  for (const std::string set : {"contacts.support.obstacle=\"plane_y\"", "contacts.support.y_axis=[0,1,0]",
+                                "modes.count=8", "modes.static_modes=\"all\""})
+    few.insert(few.end(), {"--set", set});
+  ASSERT_EQ(sweep(text, "out", few).status, 0);
+  const auto rows = table_of(folder.path("out"));
+  std::size_t modes[2] = {};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
+    for (const auto& contact : run.summary["contacts"])
+      EXPECT_EQ(contact["normal_force"]["rms"].get<double>(),
+                std::stod(rows[i].at(contact["name"].get<std::string>() + ".normal_rms")))
+          << i;
+    modes[i] = run.summary["modes"]["static_modes"].get<std::size_t>();
+  }
+  EXPECT_EQ(modes[0], 8u); // one a support, across the planes
+  EXPECT_EQ(modes[1], 16u);
+}
+
 /// V/Vc of each assessment and the worst of them, as in the run of the case.
 /// @param several  flows: the names of outputs then have that of the flow
 void expect_velocity_ratios(const Results& run, const std::map<std::string, std::string>& row,

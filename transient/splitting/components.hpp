@@ -53,10 +53,8 @@ public:
     else
       x_[from] += w;
   }
-  /// Along y and z of forces along y and z.
-  [[nodiscard]] Components::Pair in_plane(const Components& f) const {
-    return f.y() * yz_[0] + f.z() * yz_[1];
-  }
+  /// Along y and z, of forces along y and z.
+  [[nodiscard]] Components::Pair yz_of(const Components& f) const { return f.y() * yz_[0] + f.z() * yz_[1]; }
   [[nodiscard]] Components operator*(const Components& f) const {
     return {f.y() * yz_[0] + f.z() * yz_[1] + f.x * yz_[2], x_[0] * f.y() + x_[1] * f.z() + x_[2] * f.x};
   }

@@ -46,11 +46,9 @@ std::array<bool, 3> friction_directions(const contact::Support& support) {
   return contact::friction_directions(support.obstacle, support.friction.along);
 }
 
-/// Adds what forces do, where no contact moves along x half of the work.
-constexpr auto in_space = [](const Mobility& w, const Components& f, Components& to) { to = to + w * f; };
-constexpr auto in_plane = [](const Mobility& w, const Components& f, Components& to) {
-  to.yz += w.in_plane(f);
-};
+/// Adds what a force does; where no contact has one along x, along y and z alone: half of the work.
+constexpr auto add_yzx = [](const Mobility& w, const Components& f, Components& to) { to = to + w * f; };
+constexpr auto add_yz = [](const Mobility& w, const Components& f, Components& to) { to.yz += w.yz_of(f); };
 
 } // namespace
 
@@ -318,13 +316,13 @@ void CoupledContacts::hold_back(int first, double dt) {
     moving_[i].held_back = moving_[i].held_back + dt * moving_[i].held_back_rate;
   for (int i = first; i >= 0; i = next_[i]) {
     if (contacts_.components == 3)
-      hold_back_others(moving_[i], dt, in_space);
+      hold_back_others(moving_[i], dt, add_yzx);
     else
-      hold_back_others(moving_[i], dt, in_plane);
+      hold_back_others(moving_[i], dt, add_yz);
   }
 }
-template <class Times>
-void CoupledContacts::hold_back_others(const MovingContact& m, double dt, const Times& times) {
+template <class Add>
+void CoupledContacts::hold_back_others(const MovingContact& m, double dt, const Add& add) {
   const Components force = dt * (m.force - forces_[m.number].held), growth = dt * m.growth;
   if (!(sum_of_sizes(force) + sum_of_sizes(growth) > 0.0))
     return;
@@ -335,9 +333,9 @@ void CoupledContacts::hold_back_others(const MovingContact& m, double dt, const 
         &responses_[block][static_cast<std::size_t>(local) * blocks_.contacts[block].size()];
     for (const auto& [k, to] : moving_blocks_[block].contacts) {
       MovingContact& other = moving_[k];
-      times(by[to].v, bent, other.held_back);
-      times(by[to].v, force, other.held_back_rate);
-      times(by[to].v, moved, other.rate);
+      add(by[to].v, bent, other.held_back);
+      add(by[to].v, force, other.held_back_rate);
+      add(by[to].v, moved, other.rate);
     }
   }
 }
@@ -384,13 +382,13 @@ void CoupledContacts::pass_on(const MovingContact& m, const Components& by_force
   if (!(sum_of_sizes(by_force) + sum_of_sizes(by_growth) > 0.0))
     return;
   if (contacts_.components == 3)
-    push_others(m, by_force, by_growth, in_space);
+    push_others(m, by_force, by_growth, add_yzx);
   else
-    push_others(m, by_force, by_growth, in_plane);
+    push_others(m, by_force, by_growth, add_yz);
 }
-template <class Times>
+template <class Add>
 void CoupledContacts::push_others(const MovingContact& m, const Components& by_force,
-                                  const Components& by_growth, const Times& times) {
+                                  const Components& by_growth, const Add& add) {
   for (const auto& [block, local] : blocks_.places[m.number]) {
     const MovingBlock& of = moving_blocks_[block];
     const std::size_t from = static_cast<std::size_t>(local) * blocks_.contacts[block].size();
@@ -399,12 +397,12 @@ void CoupledContacts::push_others(const MovingContact& m, const Components& by_f
       if (&other == &m)
         continue;
       const Mobility& w = of.mobility[from + static_cast<std::size_t>(to)];
-      times(w, by_force, other.others);
-      times(w, by_growth, other.others_growth);
+      add(w, by_force, other.others);
+      add(w, by_growth, other.others_growth);
       if (of.close[from + static_cast<std::size_t>(to)]) {
         const Mobility& y = of.compliance[from + static_cast<std::size_t>(to)];
-        times(y, by_force, other.others_lift);
-        times(y, by_growth, other.others_lift_growth);
+        add(y, by_force, other.others_lift);
+        add(y, by_growth, other.others_lift_growth);
       }
     }
   }

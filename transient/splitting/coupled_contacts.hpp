@@ -103,10 +103,10 @@ private:
   void move_in_intervals_of(int block, int count);
   void hold_back(int first, double dt);
   void pass_on(const MovingContact& m, const Components& by_force, const Components& by_growth);
-  template <class Times> void hold_back_others(const MovingContact& m, double dt, const Times& times);
-  template <class Times>
+  template <class Add> void hold_back_others(const MovingContact& m, double dt, const Add& add);
+  template <class Add>
   void push_others(const MovingContact& m, const Components& by_force, const Components& by_growth,
-                   const Times& times);
+                   const Add& add);
 
   const PackedContacts& contacts_;
   ContactBlocks blocks_;
