@@ -4,6 +4,15 @@
 
 namespace fretwork::app::test::sweep_cases_test {
 
+/// The work rates and rms forces of the contacts, as in the run of the case.
+void expect_contacts(const Results& run, const std::map<std::string, std::string>& row) {
+  for (const auto& contact : run.summary["contacts"]) {
+    const std::string name = contact["name"];
+    EXPECT_EQ(contact["work_rate"].get<double>(), std::stod(row.at(name + ".work_rate"))) << name;
+    EXPECT_EQ(contact["normal_force"]["rms"].get<double>(), std::stod(row.at(name + ".normal_rms"))) << name;
+  }
+}
+
 TEST_F(Sweeps, ARowIsARunWithTheSameOverridesBitForBit) {
   const std::string text = sweep_of("straight_tube", R"(
 draws = 4
@@ -25,13 +34,11 @@ uniform = { from = 0.1, to = 0.5 }
       at = i;
     }
   const Results run = read_results(folder.path("out/runs/case_" + std::to_string(at)));
+  expect_contacts(run, rows[at]);
   double largest = 0.0;
   int known = 0; // errors
   for (const auto& contact : run.summary["contacts"]) {
     const std::string name = contact["name"];
-    EXPECT_EQ(contact["work_rate"].get<double>(), std::stod(rows[at].at(name + ".work_rate"))) << name;
-    EXPECT_EQ(contact["normal_force"]["rms"].get<double>(), std::stod(rows[at].at(name + ".normal_rms")))
-        << name;
     const auto& errors = contact["standard_error"];
     for (const auto& [column, error] : {std::pair("work_rate", errors["work_rate"]),
                                         {"normal_rms", errors["normal_force"]["rms"]},
@@ -75,10 +82,7 @@ values = [1.0, 1.05]
   std::set<std::string> different;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
-    for (const auto& contact : run.summary["contacts"])
-      EXPECT_EQ(contact["work_rate"].get<double>(),
-                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
-          << i;
+    expect_contacts(run, rows[i]);
     different.insert(rows[i].at("total.work_rate"));
   }
   EXPECT_EQ(different.size(), 8u); // what was kept in memory was that of the case
@@ -102,10 +106,7 @@ values = ["axial", "both"]
   std::size_t modes[2] = {};
   for (std::size_t i = 0; i < 2; ++i) {
     const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
-    for (const auto& contact : run.summary["contacts"])
-      EXPECT_EQ(contact["normal_force"]["rms"].get<double>(),
-                std::stod(rows[i].at(contact["name"].get<std::string>() + ".normal_rms")))
-          << i;
+    expect_contacts(run, rows[i]);
     modes[i] = run.summary["modes"]["static_modes"].get<std::size_t>();
   }
   EXPECT_EQ(modes[0], 8u); // one a support, across the planes
@@ -144,10 +145,7 @@ values = [5.0, 9.0]
   std::set<std::string> different;
   for (std::size_t i = 0; i < 2; ++i) {
     const Results run = read_results(folder.path("out/runs/case_" + std::to_string(i)));
-    for (const auto& contact : run.summary["contacts"])
-      EXPECT_EQ(contact["work_rate"].get<double>(),
-                std::stod(rows[i].at(contact["name"].get<std::string>() + ".work_rate")))
-          << i;
+    expect_contacts(run, rows[i]);
     EXPECT_NE(run.summary["energy"]["fluid_J"].get<double>(), 0.0);
     expect_velocity_ratios(run, rows[i]);
     different.insert(rows[i].at("total.work_rate"));
